@@ -1,0 +1,111 @@
+#include "mechanics/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bight {
+
+namespace {
+
+/// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite; elsewhere it
+/// begins where the last one was, or where the step would stay within reach, and grows until the
+/// factorisation succeeds. False when no shift in range does.
+bool direction(System& system, const Vector& g, double reach, NewtonResult& result, Vector& step) {
+  const SymmetricMatrix& H = system.assembler.hessian();
+  if (system.analysed_pattern != system.assembler.pattern_version()) {
+    system.cholesky.analyse(H, system.ordering);
+    system.analysed_pattern = system.assembler.pattern_version();
+  }
+  double largest = 0;
+  for (int j = 0; j < H.size(); ++j) {
+    const auto begin = H.row.begin() + H.column_start[j];
+    const auto diagonal = std::lower_bound(begin, H.row.begin() + H.column_start[j + 1], j);
+    largest = std::max(largest, std::abs(H.value[static_cast<size_t>(diagonal - H.row.begin())]));
+  }
+  const double first = std::clamp(g.cwiseAbs().maxCoeff() / reach, 1e-10 * largest, 1e-2 * largest);
+  double shift = system.shift < 1e-10 * largest ? 0 : 0.25 * system.shift;
+  for (; shift <= 10 * largest; shift = std::max(first, 4 * shift)) {
+    ++result.factorisations;
+    if (!system.cholesky.factor(H, shift)) continue;
+    system.shift = shift;
+    step = -system.cholesky.solve(g);
+    return step.allFinite();
+  }
+  return false;
+}
+
+}  // namespace
+
+NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
+                    const NewtonObserver& observer) {
+  Assembler& assembler = system.assembler;
+  const Unknowns& unknowns = assembler.unknowns();
+  NewtonResult result;
+  auto finish = [&](NewtonStatus status, std::string reason) {
+    result.status = status;
+    result.reason = std::move(reason);
+    result.x = std::move(x);
+    return result;
+  };
+
+  assembler.refresh(x);
+  result.energy = assembler.assemble(x, Order::hessian, result.gradient);
+  if (!std::isfinite(result.energy))
+    return finish(NewtonStatus::not_finite, "the first guess is inadmissible");
+
+  bool full_step = false;
+  for (;; ++result.iterations) {
+    const Vector g = unknowns.reduce(x, result.gradient);
+    if (!g.allFinite()) return finish(NewtonStatus::not_finite, "the residual is not finite");
+    result.residual = g.size() ? g.cwiseAbs().maxCoeff() : 0.0;
+    // After a full step the next decrement is about the square of the last one.
+    if (full_step && result.residual <= options.force_tolerance &&
+        result.decrement <= 1e3 * options.energy_tolerance)
+      return finish(NewtonStatus::converged, "");
+    if (result.iterations >= options.max_iterations)
+      return finish(NewtonStatus::too_many_iterations, "too many iterations");
+
+    Vector step;
+    if (!direction(system, g, options.largest_move, result, step))
+      return finish(NewtonStatus::no_descent, "no shift makes the tangent positive definite");
+    result.decrement = -g.dot(step);
+    if (result.decrement <= options.energy_tolerance && result.residual <= options.force_tolerance)
+      return finish(NewtonStatus::converged, "");
+
+    Vector dx = unknowns.expand(x, step);
+    for (const auto& effect : assembler.effects()) effect->recover(x, dx);
+    const auto moved = dx.head(unknowns.coordinates());
+    double longest = std::min(1.0, options.largest_move / moved.cwiseAbs().maxCoeff());
+    for (const auto& effect : assembler.effects())
+      longest = std::min(longest, effect->longest_step(x, dx));
+
+    // The first trial is nearly always taken, so it is evaluated with its tangent.
+    Vector trial, trial_gradient;
+    bool first = true;
+    const auto energy_at = [&](double fraction) {
+      trial = x;
+      system.advance(trial, fraction * dx);
+      assembler.refresh(trial);
+      const double energy = assembler.assemble(trial, first ? Order::hessian : Order::energy,
+                                               trial_gradient);
+      first = false;
+      return std::isfinite(energy) ? energy : inadmissible;
+    };
+    const LineSearchResult found =
+        search(energy_at, result.energy, options.bound.allowed(result.iterations), longest);
+    if (observer)
+      observer({result.iterations, result.energy, result.residual, result.decrement, found.step,
+                system.shift});
+    if (found.step == 0) {
+      assembler.refresh(x);
+      return finish(NewtonStatus::stalled, "no step lowers the energy");
+    }
+    if (found.evaluations > 1) assembler.assemble(trial, Order::hessian, trial_gradient);
+    x = std::move(trial);
+    result.gradient = std::move(trial_gradient);
+    result.energy = found.energy;
+    full_step = found.step == 1.0 && system.shift == 0;
+  }
+}
+
+}  // namespace bight

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "mechanics/types.h"
+
+namespace bight {
+
+/// A symmetric sparse matrix by compressed columns: the lower triangle, rows ascending. Entries
+/// above the diagonal may be present (whole diagonal blocks) and are ignored.
+struct SymmetricMatrix {
+  std::vector<int> column_start;
+  std::vector<int> row;
+  std::vector<double> value;
+  int size() const { return static_cast<int>(column_start.size()) - 1; }
+};
+
+/// Natural: keep the order of the unknowns (a rod without contact is banded along its length).
+/// Dissection: METIS on the pattern (contact couples far parts of the rod).
+enum class Ordering { natural, dissection };
+
+/// Sparse Cholesky factorisation of a symmetric positive definite matrix: CHOLMOD's door.
+class SparseCholesky {
+ public:
+  SparseCholesky();
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  /// Symbolic analysis of the pattern; kept until the next call.
+  void analyse(const SymmetricMatrix& matrix, Ordering ordering);
+
+  /// Factors matrix + shift * identity; false when that is not positive definite (or not finite).
+  bool factor(const SymmetricMatrix& matrix, double shift = 0);
+
+  /// Solves with the last successful factor.
+  Vector solve(const Vector& right_hand_side) const;
+
+  std::size_t factor_entries() const;   ///< non-zeros of L
+  double factor_flops() const;          ///< floating point operations of one factorisation
+  std::size_t peak_bytes() const;       ///< largest memory held by the package so far
+
+ private:
+  struct Package;
+  std::unique_ptr<Package> package_;
+};
+
+}  // namespace bight

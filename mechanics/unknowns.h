@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "mechanics/types.h"
+
+namespace bight {
+
+/// A rigid rotation, about an axis, of points whose coordinates it carries along: an end that is
+/// clamped but free to turn. Its angle is a coordinate of its own.
+struct Turn {
+  Vector3 point = Vector3::Zero();   ///< on the axis [D]
+  Vector3 axis = Vector3::UnitZ();   ///< unit vector
+  int angle = -1;                    ///< coordinate that holds the angle [rad]
+  std::vector<int> carried;          ///< first coordinates (x of x, y, z) of the carried points
+};
+
+/// Which coordinates Newton moves, and how it numbers them. A coordinate is free (an unknown),
+/// held (its value is given), or carried by a turn (it follows the turn's angle).
+///
+/// Unknowns are numbered by blocks: the free coordinates of one node or one angle, adjacent in x.
+/// The pattern of the Hessian is kept by blocks.
+class Unknowns {
+ public:
+  /// `blocks`: first coordinate of every block, ascending, up to `coordinates`. Coordinates from
+  /// there on are internal.
+  Unknowns(std::vector<int> blocks, int coordinates, const std::vector<bool>& held,
+           std::vector<Turn> turns = {});
+
+  int size() const { return size_; }
+  int blocks() const { return static_cast<int>(block_start_.size()) - 1; }
+  int coordinates() const { return static_cast<int>(index_.size()); }
+
+  /// Unknown number of a coordinate, -1 when held, carried or internal.
+  int index(int coordinate) const { return index_[coordinate]; }
+  /// Which turn carries a coordinate, -1 for none.
+  int turn_of(int coordinate) const { return turn_of_.empty() ? -1 : turn_of_[coordinate]; }
+  const std::vector<Turn>& turns() const { return turns_; }
+
+  int block_of(int unknown) const { return block_of_[unknown]; }
+  int block_begin(int block) const { return block_start_[block]; }
+  int block_size(int block) const { return block_start_[block + 1] - block_start_[block]; }
+
+  /// Gradient by unknowns from the gradient by coordinates (chain rule for carried points).
+  Vector reduce(const Vector& x, const Vector& gradient) const;
+
+  /// Step in coordinates from a step in unknowns: linear for free ones; carried points get the
+  /// tangent of their rotation. Internal entries are zero.
+  Vector expand(const Vector& x, const Vector& step) const;
+
+  /// d position / d angle of a carried point, and its second derivative.
+  static Vector3 velocity(const Turn& turn, const Vector3& position);
+  static Vector3 acceleration(const Turn& turn, const Vector3& position);
+
+  /// x + dx, with carried points rotated exactly.
+  void advance(Vector& x, const Vector& dx) const;
+
+ private:
+  int size_ = 0;
+  std::vector<int> index_, turn_of_, block_start_, block_of_;
+  std::vector<Turn> turns_;
+};
+
+}  // namespace bight

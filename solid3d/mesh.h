@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mechanics/types.h"
+
+namespace bight::solid3d {
+
+/// A disc of diameter 1 cut into quadrilaterals (O-grid: a square core and rings around it).
+/// Scaled so that the second moment of the polygon is pi/64, that of the disc.
+struct Section {
+  std::vector<Vector2> points;               ///< [D]; the centre point is `centre`
+  std::vector<std::array<int, 4>> quads;     ///< counter-clockwise
+  std::vector<int> rim;                      ///< boundary points, counter-clockwise from angle 0
+  int centre = 0;
+};
+
+/// About `cells` quadrilaterals: m x m core and r rings of 4 m (12, 32, 60, 108, ... fit exactly).
+Section make_section(int cells);
+
+/// A rod swept from a section: layer k holds the section's points at arc length s[k].
+/// Node number = layer * section.points.size() + point. The reference rod lies straight along z.
+struct Mesh {
+  Section section;
+  std::vector<double> s;                     ///< undeformed arc length of the layers [D], 0 ... L0/D
+  std::vector<std::array<int, 8>> cells;     ///< VTK hexahedron order
+  int layers() const { return static_cast<int>(s.size()); }
+  int points_per_layer() const { return static_cast<int>(section.points.size()); }
+  int nodes() const { return layers() * points_per_layer(); }
+  int node(int layer, int point) const { return layer * points_per_layer() + point; }
+  /// Reference position of a node [D].
+  Vector3 reference(int node) const;
+  /// Mean width of a section cell, sqrt(area / cells) [D].
+  double cell_width() const;
+};
+
+Mesh make_mesh(const Section& section, const std::vector<double>& layers);
+
+/// Arc lengths of layers: spacing `fine` between knot_begin and knot_end, growing geometrically to
+/// `coarse` in the tails. All in D; the last entry is exactly `length`.
+std::vector<double> graded_layers(double length, double fine, double coarse, double knot_begin,
+                                  double knot_end);
+
+}  // namespace bight::solid3d
