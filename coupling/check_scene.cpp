@@ -1,0 +1,121 @@
+#include "coupling/check_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/effects.h"
+#include "coupling/errors.h"
+#include "coupling/knot_start.h"
+
+namespace bight::coupling {
+namespace {
+
+constexpr double shortest_rod = 12;    ///< L0/D: an open tight overhand alone takes about 10
+constexpr double shortest_reach = 4;   ///< L/D: two diameters of straight tail at each end
+constexpr double largest_stretch = 2;  ///< L/L0; the rod is linear, rubber is not
+
+class Check {
+ public:
+  Check(Scene& scene, const Values& values, Problems& problems)
+      : scene_(scene), values_(values), problems_(problems) {}
+
+  void knot() {
+    if (values_.has("knot.type") && values_.has("knot.centerline"))
+      return refuse("knot.centerline", "give either knot.type or knot.centerline, not both");
+    if (scene_.slenderness() < shortest_rod)
+      return refuse("rod.length", fmt::format("{:.3g} diameters are too short for a knot; at least {}",
+                                              scene_.slenderness(), shortest_rod));
+    try {
+      knot_start(scene_);
+    } catch (const InputError& error) {
+      refuse("knot.centerline", error.what());
+    }
+  }
+
+  void path() {
+    const double highest = scene_.slenderness() - shortest_reach;
+    const double lowest = scene_.slenderness() * (1 - largest_stretch);
+    for (const double ebar : scene_.path.waypoints) {
+      if (ebar > highest)
+        refuse("path.ebar", fmt::format("{} is more than a rod of L0 = {:.4g} D holds with straight "
+                                        "tails; at most {:.4g}", ebar, scene_.slenderness(), highest));
+      if (ebar < lowest)
+        refuse("path.ebar", fmt::format("{} stretches the rod to more than twice its length; at "
+                                        "least {:.4g}", ebar, lowest));
+    }
+    for (const double ebar : scene_.path.record) on_path("path.record", ebar);
+    if (scene_.solid) on_path("solid3d.seed_ebar", scene_.seed_ebar);
+  }
+
+  void material() {
+    const double nu = scene_.poissons_ratio;
+    const double of_nu = 2 * (1 + nu) / (3 * (1 - 2 * nu));
+    if (nu < 0.5 && std::abs(scene_.bulk_to_shear - of_nu) > 1e-9 * of_nu)
+      refuse("material.bulk_to_shear", fmt::format("only free when poissons_ratio is 0.5; {} means {}",
+                                                   nu, of_nu));
+    const double density = values_.number("material.density");
+    if (density < 10)
+      warn("material.density", fmt::format("{} kg/m^3 is hardly a solid (the paper's printed 1.160 "
+                                           "kg/m^3 is a slip for 1160)", density));
+    if (scene_.youngs_modulus < 1e3 || scene_.youngs_modulus > 1e12)
+      warn("material.youngs_modulus", fmt::format("{} Pa is not that of a common solid",
+                                                  scene_.youngs_modulus));
+  }
+
+  void resolution() {
+    const double segment = scene_.slenderness() / scene_.segments;
+    if (segment > 0.5)
+      warn("rod1d.segments", fmt::format("segments of {:.2g} D are too long for smooth contact",
+                                         segment));
+  }
+
+  void effects() {
+    for (const AskedEffect& effect : asked_effects(scene_))
+      if (!effect.available)
+        refuse(effect.key, effect.name + " cannot be simulated yet; available: " + available());
+  }
+
+ private:
+  std::string available() const {
+    std::string names;
+    for (const AskedEffect& effect : asked_effects(scene_))
+      if (effect.available) names += (names.empty() ? "" : ", ") + effect.name;
+    return names;
+  }
+
+  void on_path(const char* key, double ebar) {
+    const auto [low, high] = std::ranges::minmax(scene_.path.waypoints);
+    if (ebar < low || ebar > high)
+      refuse(key, fmt::format("{} is not on the path; path.ebar runs from {} to {}", ebar, low, high));
+  }
+
+  void refuse(const std::string& key, const std::string& what) {
+    problems_.add(place(key), key, what);
+  }
+  void warn(const std::string& key, const std::string& what) {
+    scene_.warnings.push_back(fmt::format("{}: {}: {}", place(key), key, what));
+  }
+  std::string place(const std::string& key) const {
+    const std::string where = values_.where(key);
+    return where.empty() ? scene_.name + ".toml" : where;
+  }
+
+  Scene& scene_;
+  const Values& values_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_scene(Scene& scene, const Values& values, Problems& problems) {
+  Check check(scene, values, problems);
+  check.knot();
+  check.path();
+  check.material();
+  check.resolution();
+  check.effects();
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,18 @@
+#include "coupling/effects.h"
+
+namespace bight::coupling {
+
+std::vector<AskedEffect> asked_effects(const Scene& scene) {
+  std::vector<AskedEffect> effects = {
+      {"stretch", "", true, false},
+      {"bend", "", true, false},
+      {"strain", "", false, true},
+  };
+  if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
+  if (scene.contact) effects.push_back({"contact", "effects.contact"});
+  if (scene.friction > 0) effects.push_back({"friction", "effects.friction", true, true, false});
+  effects.push_back({"grip", ""});
+  return effects;
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,152 @@
+#include "coupling/keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace bight::coupling {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Range above(double low) { return {low, infinity, true}; }
+
+// Levenshtein distance: insertions, deletions and replacements between two words.
+int edits(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const int replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string_view last_part(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+}  // namespace
+
+const std::vector<Key>& all_keys() {
+  using enum Kind;
+  // path, kind, unit, range, words, default, how it is found otherwise, meaning
+  static const std::vector<Key> keys = {
+      {"title", text, "", {}, {}, R"("")", "", "What the scene is; copied into the results"},
+      {"fidelities", words, "", {}, {"rod", "solid"}, R"(["rod", "solid"])", "",
+       "What `bight run` simulates; the rod always ties the knot"},
+
+      {"rod.length", quantity, "m", above(0), {}, "", "required", "Undeformed length L0"},
+      {"rod.diameter", quantity, "m", above(0), {}, "", "required", "Undeformed diameter D"},
+
+      {"material.model", word, "", {}, {"neo-hookean"}, R"("neo-hookean")", "",
+       "Stored energy of the solid; the rod is linear in its strains"},
+      {"material.youngs_modulus", quantity, "Pa", above(0), {}, "", "required",
+       "Young's modulus E at small strain"},
+      {"material.poissons_ratio", number, "", {0, 0.5}, {}, "0.5", "",
+       "Poisson's ratio; 0.5 is incompressible, which the solid approaches by bulk_to_shear"},
+      {"material.bulk_to_shear", number, "", {0.66, 1e6}, {}, "",
+       "1000 for poissons_ratio 0.5, else 2 (1 + nu)/(3 (1 - 2 nu))",
+       "Bulk modulus over shear modulus of the solid"},
+      {"material.density", quantity, "kg/m^3", above(0), {}, "1160", "",
+       "Mass per volume; used by effects that know inertia or gravity"},
+
+      {"knot.type", word, "", {}, {"overhand", "figure-eight"}, "",
+       "overhand, unless knot.centerline is given", "Knot to be tied"},
+      {"knot.centerline", file, "", {}, {}, "", "none: knot.type is tied",
+       "Tied start instead of knot.type: CSV x,y,z in metres, or rows of x y z theta"},
+
+      {"ends.start", word, "", {}, {"clamped"}, R"("clamped")", "", "Grip at s = 0"},
+      {"ends.finish", word, "", {}, {"free-twist", "clamped"}, R"("free-twist")", "",
+       "Grip at s = L0; free-twist may turn about the pulling axis"},
+
+      {"effects.contact", boolean, "", {}, {}, "true", "", "Strands keep each other outside"},
+      {"effects.friction", number, "", {0, 5}, {}, "0", "", "Coulomb coefficient of the surface"},
+      {"effects.twist", boolean, "", {}, {}, "",
+       "false for a frictionless rod with a free-twist end, else true",
+       "The rod's twist angles are unknowns"},
+
+      {"path.ebar", numbers, "", {-1e5, 1e5}, {}, "", "required",
+       "Waypoints of (L0 - L)/D: tightening when falling, loosening when rising"},
+      {"path.max_step", number, "", {1e-4, 100}, {}, "0.5", "",
+       "Largest step in ebar; the solver may take smaller ones"},
+      {"path.record", numbers, "", {-1e5, 1e5}, {}, "", "the waypoints",
+       "ebar at which full states are written"},
+      {"path.speed", quantity, "m/s", above(0), {}, "0.0005", "",
+       "Speed of the moving end; used by effects that know time"},
+
+      {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter of length, at least 60",
+       "Segments of the centerline"},
+      {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
+       "Largest overlap of strands aimed at, in D"},
+
+      {"solid3d.section_elements", integer, "", {12, 2000}, {}, "32", "",
+       "About this many hexahedra in a cross-section (12, 32, 60, 108 fit exactly)"},
+      {"solid3d.seed_ebar", number, "", {-1e5, 1e5}, {}, "", "the first waypoint",
+       "ebar at which the rod's state becomes the solid's start"},
+      {"solid3d.axial_ratio", number, "", {0.1, 5}, {}, "0.8", "",
+       "Length over width of a cell in the knot"},
+      {"solid3d.tail_ratio", number, "", {0.1, 20}, {}, "3", "",
+       "Length over width of a cell in the straight tails"},
+      {"solid3d.contact_stiffness", number, "", {0.1, 1e5}, {}, "60", "",
+       "First contact penalty per area, in E/D"},
+      {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
+       "Largest overlap allowed, in D; the penalty is stiffened until it is met"},
+      {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
+       "Distance of contact samples on the surface, in D"},
+  };
+  return keys;
+}
+
+bool Range::contains(double value) const {
+  return (low_open ? value > low : value >= low) && value <= high;
+}
+
+std::string Range::text() const {
+  return fmt::format("{}{}, {}{}", low_open || low == -infinity ? '(' : '[', low, high,
+                     high == infinity ? ')' : ']');
+}
+
+const Key* find_key(std::string_view path) {
+  const auto& keys = all_keys();
+  const auto found = std::ranges::find(keys, path, &Key::path);
+  return found == keys.end() ? nullptr : &*found;
+}
+
+const Key& nearest_key(std::string_view path) {
+  return *std::ranges::min_element(all_keys(), {}, [&](const Key& key) {
+    return 2 * edits(path, key.path) + edits(last_part(path), last_part(key.path));
+  });
+}
+
+std::string allowed(const Key& key) {
+  switch (key.kind) {
+    case Kind::quantity:
+      return fmt::format("a quantity such as \"1 {0}\" (a plain number is in {0}) in {1}", key.unit,
+                         key.range.text());
+    case Kind::number: return "a number in " + key.range.text();
+    case Kind::integer: return "a whole number in " + key.range.text();
+    case Kind::boolean: return "true or false";
+    case Kind::word: return fmt::format("one of: {}", fmt::join(key.words, ", "));
+    case Kind::words: return fmt::format("a list of: {}", fmt::join(key.words, ", "));
+    case Kind::numbers: return "a list of numbers in " + key.range.text();
+    case Kind::text: return "text";
+    case Kind::file: return "the name of a file, relative to the scene";
+  }
+  return {};
+}
+
+std::string keys_table() {
+  std::string table;
+  for (const Key& key : all_keys())
+    table += fmt::format("{}\n    {}.\n    allowed: {}\n    default: {}\n", key.path, key.meaning,
+                         allowed(key), key.fallback.empty() ? key.otherwise : key.fallback);
+  return table;
+}
+
+}  // namespace bight::coupling

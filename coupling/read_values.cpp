@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "coupling/errors.h"
+#include "coupling/units.h"
+#include "coupling/values.h"
+
+namespace bight::coupling {
+namespace {
+
+/// Says why a value cannot be taken; the caller knows the place.
+struct Unfit {
+  std::string why;
+};
+
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  out << toml::node_view<const toml::node>(node);
+  return out.str();
+}
+
+Unfit not_allowed(const Key& key, const std::string& value) {
+  return {fmt::format("{} is not {}", value, allowed(key))};
+}
+
+double checked(const Key& key, double value, const std::string& text) {
+  if (!std::isfinite(value) || !key.range.contains(value)) throw not_allowed(key, text);
+  if (key.kind == Kind::integer && value != std::floor(value)) throw not_allowed(key, text);
+  return value;
+}
+
+double to_number(const Key& key, const toml::node& node) {
+  if (key.kind == Kind::quantity && node.is_string()) {
+    const std::string text = **node.as_string();
+    try {
+      return checked(key, parse_quantity(text, key.unit), '"' + text + '"');
+    } catch (const InputError& error) {
+      throw Unfit{error.what()};
+    }
+  }
+  if (!node.is_number()) throw not_allowed(key, shown(node));
+  return checked(key, *node.value<double>(), shown(node));
+}
+
+std::string to_word(const Key& key, const toml::node& node) {
+  if (!node.is_string()) throw not_allowed(key, shown(node));
+  const std::string text = **node.as_string();
+  const bool free = key.kind == Kind::text || key.kind == Kind::file;
+  if (!free && std::ranges::find(key.words, text) == key.words.end())
+    throw not_allowed(key, '"' + text + '"');
+  return text;
+}
+
+// A list; a single value counts as a list of one.
+template <class Item>
+auto to_list(const Key& key, const toml::node& node, Item item) {
+  std::vector<decltype(item(key, node))> list;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& entry : *array) list.push_back(item(key, entry));
+  } else {
+    list.push_back(item(key, node));
+  }
+  if (list.empty()) throw not_allowed(key, "an empty list");
+  return list;
+}
+
+Value to_value(const Key& key, const toml::node& node) {
+  switch (key.kind) {
+    case Kind::quantity:
+    case Kind::number:
+    case Kind::integer: return to_number(key, node);
+    case Kind::boolean:
+      if (!node.is_boolean()) throw not_allowed(key, shown(node));
+      return **node.as_boolean();
+    case Kind::word:
+    case Kind::text:
+    case Kind::file: return to_word(key, node);
+    case Kind::words: return to_list(key, node, to_word);
+    case Kind::numbers: return to_list(key, node, to_number);
+  }
+  return {};
+}
+
+std::string unknown_key(const std::string& path) {
+  if (path.starts_with("effects.")) {
+    std::string names;
+    for (const Key& key : all_keys())
+      if (key.path.starts_with("effects."))
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", key.path.substr(8));
+    return "no such effect; available: " + names;
+  }
+  return fmt::format("unknown key; nearest is {}", nearest_key(path).path);
+}
+
+void take(const std::string& path, const toml::node& node, const std::string& where, Values& values,
+          Problems& problems) {
+  const Key* key = find_key(path);
+  if (!key) return problems.add(where, path, unknown_key(path));
+  try {
+    values.set(path, {to_value(*key, node), where});
+  } catch (const Unfit& unfit) {
+    problems.add(where, path, unfit.why);
+  }
+}
+
+void take_table(const std::string& prefix, const toml::table& table, const std::string& name,
+                Values& values, Problems& problems) {
+  for (const auto& [key, node] : table) {
+    const std::string path = prefix + std::string(key.str());
+    const std::string where = fmt::format("{}:{}", name, key.source().begin.line);
+    if (node.is_table() && !(node.as_table()->empty() && find_key(path)))
+      take_table(path + '.', *node.as_table(), name, values, problems);
+    else
+      take(path, node, where, values, problems);
+  }
+}
+
+// The right side of --set as TOML; what is not TOML (8.3 mm, rod) is a string.
+void take_override(const std::string& setting, Values& values, Problems& problems) {
+  const size_t equals = setting.find('=');
+  if (equals == setting.npos || equals == 0)
+    return problems.add("--set " + setting, "", "write --set key.path=value");
+  const std::string path = setting.substr(0, equals), text = setting.substr(equals + 1);
+  const Key* key = find_key(path);
+  const bool free = key && (key->kind == Kind::text || key->kind == Kind::file);
+  if (!free) {
+    try {
+      const toml::table table = toml::parse("value = " + text);
+      if (table.size() == 1) return take(path, *table.get("value"), "--set", values, problems);
+    } catch (const toml::parse_error&) {
+    }
+  }
+  take(path, toml::value<std::string>(text), "--set", values, problems);
+}
+
+bool is_text(const std::string& text) {
+  return std::ranges::none_of(text, [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte == 0x7f || (byte < 0x20 && !(byte >= '\t' && byte <= '\r'));
+  });
+}
+
+}  // namespace
+
+Values read_values(const std::string& text, const std::string& name,
+                   const std::vector<std::string>& overrides, Problems& problems) {
+  if (!is_text(text)) throw InputError(name + ": binary data, not the TOML text of a scene");
+  Values values;
+  try {
+    const toml::table table = toml::parse(text);
+    if (table.empty())
+      throw InputError(name + ": the scene is empty; `bight keys` lists what can be written");
+    take_table("", table, name, values, problems);
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+  for (const std::string& setting : overrides) take_override(setting, values, problems);
+  for (const Key& key : all_keys()) {
+    const std::string path(key.path);
+    if (values.has(path) || problems.about(path)) continue;
+    if (!key.fallback.empty())
+      values.set(path, {to_value(key, *toml::parse("value = " + std::string(key.fallback))
+                                           .get("value")), ""});
+    else if (key.otherwise == "required")
+      problems.add(name, path, "missing; write " + allowed(key));
+  }
+  return values;
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,155 @@
+#include "coupling/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "coupling/check_scene.h"
+#include "coupling/errors.h"
+#include "coupling/knot_start.h"
+#include "coupling/values.h"
+
+namespace bight::coupling {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": there is no such file");
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file.string() + ": not a file");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw FileError(file.string() + ": cannot be read");
+  return text.str();
+}
+
+template <class T>
+void derive(Values& values, const char* key, const T& value) {
+  if (!values.has(key)) values.set(key, {value, ""});
+}
+
+// Defaults that follow from other keys; `bight keys` says how.
+void derive_defaults(Values& values) {
+  const double nu = values.number("material.poissons_ratio");
+  derive(values, "material.bulk_to_shear",
+         nu == 0.5 ? 1000.0 : 2 * (1 + nu) / (3 * (1 - 2 * nu)));
+  if (!values.has("knot.centerline")) derive(values, "knot.type", std::string("overhand"));
+  derive(values, "effects.twist",
+         values.number("effects.friction") > 0 || values.word("ends.finish") == "clamped");
+  const auto waypoints = values.get<std::vector<double>>("path.ebar");
+  derive(values, "path.record", waypoints);
+  derive(values, "solid3d.seed_ebar", waypoints.front());
+  derive(values, "rod1d.segments",
+         std::max(60.0, std::round(8 * values.number("rod.length") / values.number("rod.diameter"))));
+}
+
+// The first waypoint after which the path has come by the seed.
+size_t seed_leg(const Path& path, double seed_ebar) {
+  size_t leg = 1;
+  while (leg < path.waypoints.size() &&
+         (seed_ebar - path.waypoints[leg - 1]) * (seed_ebar - path.waypoints[leg]) > 0)
+    ++leg;
+  return leg;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 const std::vector<std::string>& fidelities) {
+  Problems problems;
+  Values values = read_values(read_text(file), file.string(), overrides, problems);
+  problems.throw_if_any();
+  if (!fidelities.empty()) values.set("fidelities", {fidelities, "the verb"});
+  derive_defaults(values);
+  if (values.has("knot.centerline"))
+    values.set("knot.centerline",
+               {absolute(file.parent_path() / values.word("knot.centerline")).string(),
+                values.where("knot.centerline")});
+
+  Scene scene;
+  const auto asked = values.get<std::vector<std::string>>("fidelities");
+  const auto asks = [&](const char* name) { return std::ranges::count(asked, name) > 0; };
+  scene.name = file.stem().string();
+  scene.title = values.word("title");
+  scene.rod = asks("rod");
+  scene.solid = asks("solid");
+  scene.length = values.number("rod.length");
+  scene.diameter = values.number("rod.diameter");
+  scene.youngs_modulus = values.number("material.youngs_modulus");
+  scene.poissons_ratio = values.number("material.poissons_ratio");
+  scene.bulk_to_shear = values.number("material.bulk_to_shear");
+  scene.knot = values.word("knot.type");
+  scene.centerline = values.word("knot.centerline");
+  scene.finish_turns = values.word("ends.finish") == "free-twist";
+  scene.contact = values.get<bool>("effects.contact");
+  scene.twist = values.get<bool>("effects.twist");
+  scene.friction = values.number("effects.friction");
+  scene.path.waypoints = values.get<std::vector<double>>("path.ebar");
+  scene.path.record = values.get<std::vector<double>>("path.record");
+  scene.path.max_step = values.number("path.max_step");
+  scene.segments = static_cast<int>(values.number("rod1d.segments"));
+  scene.rod_penetration = values.number("rod1d.penetration");
+  scene.section_elements = static_cast<int>(values.number("solid3d.section_elements"));
+  scene.seed_ebar = values.number("solid3d.seed_ebar");
+  scene.axial_ratio = values.number("solid3d.axial_ratio");
+  scene.tail_ratio = values.number("solid3d.tail_ratio");
+  scene.contact_stiffness = values.number("solid3d.contact_stiffness");
+  scene.solid_penetration = values.number("solid3d.penetration");
+  scene.sample_spacing = values.number("solid3d.sample_spacing");
+  scene.text = values.toml();
+  check_scene(scene, values, problems);
+  problems.throw_if_any();
+  return scene;
+}
+
+Path path_to_seed(const Path& path, double seed_ebar) {
+  Path part = path;
+  part.waypoints.resize(seed_leg(path, seed_ebar));
+  if (part.waypoints.back() != seed_ebar) part.waypoints.push_back(seed_ebar);
+  part.record = {seed_ebar};
+  return part;
+}
+
+Path path_from_seed(const Path& path, double seed_ebar) {
+  Path part = path;
+  part.waypoints = {seed_ebar};
+  for (size_t i = seed_leg(path, seed_ebar); i < path.waypoints.size(); ++i)
+    if (path.waypoints[i] != part.waypoints.back()) part.waypoints.push_back(path.waypoints[i]);
+  const auto [low, high] = std::ranges::minmax(part.waypoints);
+  std::erase_if(part.record, [&](double ebar) { return ebar < low || ebar > high; });
+  return part;
+}
+
+rod1d::RodParameters rod_parameters(const Scene& scene) {
+  rod1d::RodParameters rod;
+  rod.length = scene.slenderness();
+  rod.poissons_ratio = scene.poissons_ratio;
+  rod.start = knot_start(scene);
+  rod.finish_turns = scene.finish_turns;
+  rod.contact = scene.contact;
+  rod.twist = scene.twist;
+  rod.friction = scene.friction;
+  rod.segments = scene.segments;
+  rod.penetration = scene.rod_penetration;
+  rod.path = scene.path;
+  if (!scene.rod) rod.path = path_to_seed(scene.path, scene.seed_ebar);
+  if (scene.solid && std::ranges::count(rod.path.record, scene.seed_ebar) == 0)
+    rod.path.record.push_back(scene.seed_ebar);
+  return rod;
+}
+
+solid3d::SolidParameters solid_parameters(const Scene& scene) {
+  solid3d::SolidParameters solid;
+  solid.bulk_to_shear = scene.bulk_to_shear;
+  solid.finish_turns = scene.finish_turns;
+  solid.contact = scene.contact;
+  solid.contact_stiffness = scene.contact_stiffness;
+  solid.penetration = scene.solid_penetration;
+  solid.sample_spacing = scene.sample_spacing;
+  solid.path = path_from_seed(scene.path, scene.seed_ebar);
+  return solid;
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupling/units.h"
+#include "mechanics/path.h"
+#include "mechanics/types.h"
+#include "rod1d/run_rod.h"
+#include "solid3d/run_solid.h"
+
+namespace bight::coupling {
+
+/// A scene that was read, checked and completed. Lengths in m, stresses in Pa; ebar has no unit.
+struct Scene {
+  std::string name;   ///< file name without .toml
+  std::string title;
+  bool rod = true, solid = true;  ///< fidelities
+  double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5, bulk_to_shear = 1000;
+  std::string knot;                   ///< "overhand", "figure-eight"; empty with a centerline
+  std::filesystem::path centerline;   ///< file with the tied start; empty with a knot
+  bool finish_turns = true, contact = true, twist = false;
+  double friction = 0;
+  Path path;
+  int segments = 0;
+  double rod_penetration = 0;
+  int section_elements = 0;
+  double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;
+  double contact_stiffness = 0, solid_penetration = 0, sample_spacing = 0;
+
+  std::vector<std::string> warnings;  ///< allowed, but hardly meant
+  std::string text;                   ///< the scene with every default and override filled in
+
+  double slenderness() const { return length / diameter; }
+  Scales scales() const { return {diameter, youngs_modulus}; }
+};
+
+/// Reads and checks a scene; `fidelities` (when not empty) replaces those of the scene.
+/// Throws InputError that lists all problems, one per line.
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 const std::vector<std::string>& fidelities = {});
+
+/// The path up to seed_ebar, where the rod's state becomes the solid's start, and from there on.
+Path path_to_seed(const Path& path, double seed_ebar);
+Path path_from_seed(const Path& path, double seed_ebar);
+
+/// What the models need, in their own units. The rod records seed_ebar when a solid follows.
+rod1d::RodParameters rod_parameters(const Scene& scene);
+solid3d::SolidParameters solid_parameters(const Scene& scene);
+
+}  // namespace bight::coupling

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "rod1d/run_rod.h"
+#include "solid3d/mesh.h"
+
+namespace bight::coupling {
+
+/// How fine the swept mesh is.
+struct SweepOptions {
+  int section_elements = 32;
+  double axial_ratio = 0.8;   ///< cell length over section cell width, in the knot
+  double tail_ratio = 3.0;    ///< the same at the ends of the tails
+  double knot_margin = 2.0;   ///< fine cells reach this far beyond the knot [D]
+};
+
+/// The mesh of a straight rod of that length whose fine part covers the rod's knot.
+solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod);
+
+/// Node positions [D] that bring the mesh onto the rod's centerline: cubic spline through the
+/// nodes, parallel-transported frame from the start (plus the rod's twist), section shrunk by
+/// 1/sqrt(stretch) and bent anticlastically, and moved apart where strands would overlap.
+std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod);
+
+}  // namespace bight::coupling
