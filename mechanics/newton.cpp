@@ -1,11 +1,33 @@
 #include "mechanics/newton.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace bight {
 
 namespace {
+
+/// Adds the life of this object to a phase's seconds.
+class Timed {
+ public:
+  Timed(System& system, const char* phase) : sum_(system.seconds[phase]) {}
+  ~Timed() { sum_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+double evaluate(System& system, const Vector& x, Order order, Vector& gradient) {
+  {
+    Timed timed(system, "pairs");
+    system.assembler.refresh(x);
+  }
+  Timed timed(system, "assembly");
+  return system.assembler.assemble(x, order, gradient);
+}
 
 /// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite; elsewhere it
 /// begins where the last one was, or where the step would stay within reach, and grows until the
@@ -13,6 +35,7 @@ namespace {
 bool direction(System& system, const Vector& g, double reach, NewtonResult& result, Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
   if (system.analysed_pattern != system.assembler.pattern_version()) {
+    Timed timed(system, "analysis");
     system.cholesky.analyse(H, system.ordering);
     system.analysed_pattern = system.assembler.pattern_version();
   }
@@ -26,6 +49,7 @@ bool direction(System& system, const Vector& g, double reach, NewtonResult& resu
   double shift = system.shift < 1e-10 * largest ? 0 : 0.25 * system.shift;
   for (; shift <= 10 * largest; shift = std::max(first, 4 * shift)) {
     ++result.factorisations;
+    Timed timed(system, "factorisation");
     if (!system.cholesky.factor(H, shift)) continue;
     system.shift = shift;
     step = -system.cholesky.solve(g);
@@ -48,8 +72,7 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
     return result;
   };
 
-  assembler.refresh(x);
-  result.energy = assembler.assemble(x, Order::hessian, result.gradient);
+  result.energy = evaluate(system, x, Order::hessian, result.gradient);
   if (!std::isfinite(result.energy))
     return finish(NewtonStatus::not_finite, "the first guess is inadmissible");
 
@@ -85,9 +108,8 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
     const auto energy_at = [&](double fraction) {
       trial = x;
       system.advance(trial, fraction * dx);
-      assembler.refresh(trial);
-      const double energy = assembler.assemble(trial, first ? Order::hessian : Order::energy,
-                                               trial_gradient);
+      const double energy =
+          evaluate(system, trial, first ? Order::hessian : Order::energy, trial_gradient);
       first = false;
       return std::isfinite(energy) ? energy : inadmissible;
     };
@@ -100,7 +122,7 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
       assembler.refresh(x);
       return finish(NewtonStatus::stalled, "no step lowers the energy");
     }
-    if (found.evaluations > 1) assembler.assemble(trial, Order::hessian, trial_gradient);
+    if (found.evaluations > 1) evaluate(system, trial, Order::hessian, trial_gradient);
     x = std::move(trial);
     result.gradient = std::move(trial_gradient);
     result.energy = found.energy;

@@ -10,13 +10,16 @@ namespace bight::solid3d {
 /// A disc of diameter 1 cut into quadrilaterals (O-grid: a square core and rings around it).
 /// Scaled so that the second moment of the polygon is pi/64, that of the disc.
 struct Section {
-  std::vector<Vector2> points;               ///< [D]; the centre point is `centre`
+  std::vector<Vector2> points;               ///< [D]
   std::vector<std::array<int, 4>> quads;     ///< counter-clockwise
-  std::vector<int> rim;                      ///< boundary points, counter-clockwise from angle 0
-  int centre = 0;
+  std::vector<int> rim;                      ///< boundary points, counter-clockwise, equally spaced
+  std::vector<int> centre;                   ///< points whose mean is the centre: one, or four
+  double area() const;                       ///< of the polygon [D^2]
+  double second_moment() const;              ///< of the polygon about x [D^4]
 };
 
-/// About `cells` quadrilaterals: m x m core and r rings of 4 m (12, 32, 60, 108, ... fit exactly).
+/// About `cells` quadrilaterals: m x m core and r <= m/2 rings of 4 m (12, 21, 32, 60, 108 fit
+/// exactly).
 Section make_section(int cells);
 
 /// A rod swept from a section: layer k holds the section's points at arc length s[k].

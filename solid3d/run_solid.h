@@ -19,7 +19,8 @@ struct SolidParameters {
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
-  int threads = 2;
+  double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
+  double expected_tension = 1e-3;  ///< rough T at the start [E D^2]: scale of the first tolerances
   Path path;
 };
 
@@ -46,6 +47,7 @@ struct SolidObserver {
   std::function<void(const StepRow&)> on_step = [](const StepRow&) {};
   std::function<void(const SolidState&)> on_record = [](const SolidState&) {};
   std::function<bool()> interrupted = [] { return false; };
+  NewtonObserver on_iteration;  ///< for logs; may be empty
 };
 
 struct SolidResult {

@@ -1,0 +1,35 @@
+#include "solid3d/effects.h"
+
+namespace bight::solid3d {
+
+namespace {
+
+template <class T, class... Arguments>
+T* add(EffectList& list, bool asked_for, Arguments&&... arguments) {
+  if (!asked_for) return nullptr;
+  auto effect = std::make_unique<T>(std::forward<Arguments>(arguments)...);
+  T* raw = effect.get();
+  list.push_back(std::move(effect));
+  return raw;
+}
+
+/// Width of the rounded onset of contact [D]: a fraction of the overlap at moderate load.
+constexpr double contact_onset = 0.005;
+
+}  // namespace
+
+SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int internal_begin) {
+  const NeoHookean material = NeoHookean::with_bulk_ratio(p.bulk_to_shear);
+  const double bulk_modulus = p.bulk_to_shear * material.shear_modulus;
+  Contact::Options contact;
+  contact.sample_spacing = p.sample_spacing;
+  contact.largest_move = p.largest_move;
+
+  SolidEffects effects;
+  effects.strain = add<Strain>(effects.list, true, mesh, internal_begin, material, bulk_modulus);
+  effects.contact = add<Contact>(effects.list, p.contact, mesh,
+                                 ContactLaw{p.contact_stiffness, contact_onset}, contact);
+  return effects;
+}
+
+}  // namespace bight::solid3d

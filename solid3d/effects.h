@@ -1,0 +1,20 @@
+#pragma once
+
+#include "mechanics/assemble.h"
+#include "solid3d/effects/contact.h"
+#include "solid3d/effects/strain.h"
+#include "solid3d/run_solid.h"
+
+namespace bight::solid3d {
+
+/// The effects of a solid, as the parameters ask for: one line per effect in effects.cpp. An effect
+/// that is not asked for is not built.
+struct SolidEffects {
+  EffectList list;
+  Strain* strain = nullptr;    ///< in the list
+  Contact* contact = nullptr;  ///< in the list; null without contact
+};
+
+SolidEffects make_effects(const Mesh& mesh, const SolidParameters& parameters, int internal_begin);
+
+}  // namespace bight::solid3d

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mechanics/contact_law.h"
+#include "mechanics/effect.h"
+#include "solid3d/contact_surface.h"
+
+namespace bight::solid3d {
+
+/// Frictionless self-contact, surface to surface by quadrature: sample points of every patch are
+/// projected on the facing strand, and each adds half its area times the energy of its gap,
+///
+///   E = sum_samples (A/2) phi(g),   g = n . (x_sample - y(u, v)) - 2 skin,
+///
+/// with (u, v) the projection: y_u . d = y_v . d = 0. Both strands are sampled (two half-weighted
+/// passes). Gradient and Hessian of g include the motion of the projection, so this is a true
+/// potential with a symmetric tangent. (Konyukhov and Schweizerhof, Computational Contact
+/// Mechanics, 2013, ch. 4: second variation of the gap.)
+class Contact : public Effect {
+ public:
+  struct Options {
+    double sample_spacing = 0.05;  ///< [D]
+    double exclusion = 1.5;        ///< neighbours along the rod closer than this never touch [D]
+    double largest_move = 0.15;    ///< of a node in one Newton iteration [D]
+  };
+  Contact(const Mesh& mesh, ContactLaw law, Options options);
+
+  std::string_view name() const override { return "contact"; }
+  int stencils() const override { return static_cast<int>(touching_.size()); }
+  std::span<const int> coordinates(int stencil) const override {
+    return coordinates_[static_cast<size_t>(stencil)];
+  }
+  void element(const Vector& x, int stencil, Order order, ElementSlot& slot) const override;
+  void refresh(const Vector& x) override;
+  void couplings(const std::function<void(std::span<const int>)>& couple) const override;
+  double longest_step(const Vector& x, const Vector& dx) const override;
+
+  ContactLaw& law() { return law_; }
+  const ContactLaw& law() const { return law_; }
+  /// Largest overlap now [D].
+  double max_penetration() const;
+  /// Sum of the magnitudes of the contact forces [E D^2], each pair of faces counted once.
+  double total_force() const;
+
+  const ContactSurface& surface() const { return surface_; }
+
+  struct Sample {
+    int patch = 0;
+    Vector2 local;              ///< place in the patch, in [-1/2, 1/2]^2
+    double weight = 0;          ///< half its reference area [D^2]
+    Vector2 facing;             ///< its projection (u, v) on the facing strand
+    double gap = 0;             ///< [D]; meaningful when it faces something
+    bool faces = false;         ///< a projection exists and the normals oppose each other
+  };
+  const std::vector<Sample>& samples() const { return samples_; }
+
+ private:
+  void find_samples(const Vector& x);
+  void project(const Vector& x, Sample& sample) const;
+  Vector3 position(const Vector& x, const Sample& sample) const;
+
+  ContactSurface surface_;
+  ContactLaw law_;
+  Options options_;
+  std::vector<Sample> samples_;                   ///< of patches that have others near
+  std::vector<int> touching_;                     ///< samples that carry load, by stencil
+  std::vector<std::array<int, 54>> coordinates_;  ///< by stencil: 9 nodes of the sample, 9 facing
+  Vector searched_at_;                            ///< state of the last pair search
+};
+
+}  // namespace bight::solid3d

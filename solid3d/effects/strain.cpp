@@ -1,0 +1,157 @@
+#include "solid3d/effects/strain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bight::solid3d {
+
+namespace {
+
+/// A cell with a smaller det F at a Gauss point counts as inverted.
+constexpr double least_det = 0.02;
+
+using Matrix9x24 = Eigen::Matrix<double, 9, 24>;
+using Matrix24 = Eigen::Matrix<double, 24, 24>;
+using Vector24 = Eigen::Matrix<double, 24, 1>;
+
+/// cof F = J F^-T; J follows from it without a second determinant.
+Matrix3 cofactor(const Matrix3& F) {
+  Matrix3 C;
+  C.col(0) = F.col(1).cross(F.col(2));
+  C.col(1) = F.col(2).cross(F.col(0));
+  C.col(2) = F.col(0).cross(F.col(1));
+  return C;
+}
+
+}  // namespace
+
+Strain::Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus)
+    : material_(material), bulk_modulus_(bulk_modulus), internal_begin_(internal_begin) {
+  for (const auto& cell : mesh.cells) {
+    HexNodes X;
+    std::array<int, 24> coordinates;
+    for (int a = 0; a < 8; ++a) {
+      X.col(a) = mesh.reference(cell[a]);
+      for (int c = 0; c < 3; ++c) coordinates[3 * a + c] = 3 * cell[a] + c;
+    }
+    cells_.push_back(hex_reference(X));
+    coordinates_.push_back(coordinates);
+  }
+}
+
+HexNodes Strain::nodes(const Vector& x, int cell) const {
+  HexNodes positions;
+  for (int a = 0; a < 8; ++a) positions.col(a) = x.segment<3>(coordinates_[cell][3 * a]);
+  return positions;
+}
+
+double Strain::volume(const HexNodes& x, const HexReference& cell, HexNodes* gradient) const {
+  double v = 0;
+  if (gradient) gradient->setZero();
+  for (int q = 0; q < HexReference::points; ++q) {
+    const Matrix3 F = x * cell.gradient[q].transpose();
+    const Matrix3 C = cofactor(F);
+    v += cell.weight[q] * F.col(0).dot(C.col(0));
+    if (gradient) gradient->noalias() += cell.weight[q] * C * cell.gradient[q];
+  }
+  return v;
+}
+
+void Strain::element(const Vector& x, int cell, Order order, ElementSlot& slot) const {
+  const HexReference& ref = cells_[cell];
+  const HexNodes positions = nodes(x, cell);
+  const double theta_1 = x[internal_begin_ + 2 * cell], p = x[internal_begin_ + 2 * cell + 1];
+
+  double energy = 0, v = 0;
+  HexNodes g = HexNodes::Zero(), b = HexNodes::Zero();
+  Matrix24 H = Matrix24::Zero();
+  for (int q = 0; q < HexReference::points; ++q) {
+    const auto& dN = ref.gradient[q];
+    const double w = ref.weight[q];
+    const Matrix3 F = positions * dN.transpose();
+    const Matrix3 C = cofactor(F);
+    const double J = F.col(0).dot(C.col(0));
+    if (!(J > least_det)) {
+      slot.energy = inadmissible;
+      return;
+    }
+    energy += w * material_.energy(F, J);
+    v += w * J;
+    if (order < Order::gradient) continue;
+    const Matrix3 G = C / J;
+    g.noalias() += w * material_.stress(F, G, J) * dN;
+    b.noalias() += w * C * dN;
+    if (order < Order::hessian) continue;
+    // d(p J F^-T) = p J ((F^-T:dF) F^-T - F^-T dF^T F^-T)
+    Matrix9 A = material_.tangent(F, G, J);
+    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> vec_G(G.data());
+    A.noalias() += p * J * (vec_G * vec_G.transpose());
+    NeoHookean::add_transposed_product(-p * J, G, A);
+    // dF = sum_a dx_a dN_a^T: column 3a+i of dF/dx holds dN_a(K) at row i + 3K.
+    Matrix9x24 D = Matrix9x24::Zero();
+    for (int a = 0; a < 8; ++a)
+      for (int K = 0; K < 3; ++K)
+        for (int i = 0; i < 3; ++i) D(i + 3 * K, 3 * a + i) = dN(K, a);
+    const Matrix9x24 AD = w * A * D;
+    H.noalias() += D.transpose() * AD;
+  }
+
+  // Cells far from their dilatation (v != V theta) are on their way to it; the quadratic term
+  // makes Pi a measure of progress there and vanishes at the solution.
+  const double miss = v - ref.volume * (1 + theta_1);
+  slot.energy = energy + 0.5 * ref.volume * bulk_modulus_ * theta_1 * theta_1 + p * miss +
+                0.5 * material_.shear_modulus * miss * miss / ref.volume;
+  if (order < Order::gradient) return;
+  // Condensed: dtheta = (v + b.du)/V - theta, dp = U'' dtheta + U' - p; for a quadratic U the force
+  // is that of the pressure K (v/V - 1), and the stiffness gains K/V b b^T.
+  const double pressure = bulk_modulus_ * (v / ref.volume - 1);
+  g += pressure * b;
+  Vector24::Map(slot.gradient) = Vector24::Map(g.data());
+  if (order < Order::hessian) return;
+  const Eigen::Map<const Vector24> vec_b(b.data());
+  H.noalias() += bulk_modulus_ / ref.volume * (vec_b * vec_b.transpose());
+  Matrix24::Map(slot.hessian) = H;
+}
+
+void Strain::recover(const Vector& x, Vector& dx) const {
+#pragma omp parallel for schedule(static)
+  for (int cell = 0; cell < stencils(); ++cell) {
+    HexNodes b;
+    const double v = volume(nodes(x, cell), cells_[cell], &b);
+    const double dv = (b.array() * nodes(dx, cell).array()).sum();
+    const int at = internal_begin_ + 2 * cell;
+    const double theta_1 = (v + dv) / cells_[cell].volume - 1;
+    dx[at] = theta_1 - x[at];
+    dx[at + 1] = bulk_modulus_ * theta_1 - x[at + 1];
+  }
+}
+
+void Strain::settle(Vector& x) const {
+  for (int cell = 0; cell < stencils(); ++cell) {
+    const int at = internal_begin_ + 2 * cell;
+    x[at] = volume(nodes(x, cell), cells_[cell], nullptr) / cells_[cell].volume - 1;
+    x[at + 1] = bulk_modulus_ * x[at];
+  }
+}
+
+Strain::CellStress Strain::stress(const Vector& x, int cell) const {
+  const HexReference& ref = cells_[cell];
+  const HexNodes positions = nodes(x, cell);
+  const double p = x[internal_begin_ + 2 * cell + 1];
+  CellStress result;
+  double v = 0;
+  for (int q = 0; q < HexReference::points; ++q) {
+    const Matrix3 F = positions * ref.gradient[q].transpose();
+    const Matrix3 C = cofactor(F);
+    const double J = F.col(0).dot(C.col(0));
+    const Matrix3 P = material_.stress(F, C / J, J);
+    result.cauchy += ref.weight[q] * (P * F.transpose() + p * J * Matrix3::Identity());
+    result.least_jacobian = std::min(result.least_jacobian, J);
+    v += ref.weight[q] * J;
+  }
+  result.jacobian = v / ref.volume;
+  result.cauchy /= v;
+  return result;
+}
+
+}  // namespace bight::solid3d

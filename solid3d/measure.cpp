@@ -1,0 +1,94 @@
+#include "solid3d/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/knot_type.h"
+#include "solid3d/section_motion.h"
+
+namespace bight::solid3d {
+
+Polyline centerline(const Mesh& mesh, const Vector& x) {
+  Polyline line;
+  for (int k = 0; k < mesh.layers(); ++k) {
+    Vector3 mean = Vector3::Zero();
+    for (int p : mesh.section.centre) mean += x.segment<3>(3 * mesh.node(k, p));
+    line.push_back(mean / static_cast<double>(mesh.section.centre.size()));
+  }
+  return line;
+}
+
+std::vector<double> curvature(const Polyline& r, const std::vector<double>& s) {
+  const size_t n = r.size();
+  std::vector<double> kappa(n, 0.0);
+  for (size_t i = 1; i + 1 < n; ++i) {
+    const double a = s[i] - s[i - 1], b = s[i + 1] - s[i];
+    kappa[i] = (2 * ((r[i + 1] - r[i]) / b - (r[i] - r[i - 1]) / a) / (a + b)).norm();
+  }
+  if (n > 2) kappa[0] = kappa[1], kappa[n - 1] = kappa[n - 2];
+  return kappa;
+}
+
+std::vector<double> flattening(const Mesh& mesh, const Vector& x) {
+  constexpr int directions = 36;
+  const auto places = section_places(mesh, x);
+  std::vector<double> result(static_cast<size_t>(mesh.layers()), 0.0);
+  const double undeformed = 2 * mesh.section.points[mesh.section.rim[0]].norm();
+  for (int k = 0; k < mesh.layers(); ++k) {
+    double least = undeformed;
+    for (int i = 0; i < directions; ++i) {
+      const double angle = std::numbers::pi * i / directions;
+      const Vector3 d =
+          places[k].rotation * Vector3(std::cos(angle), std::sin(angle), 0);
+      double low = 1e300, high = -1e300;
+      for (int p : mesh.section.rim) {
+        const double at = d.dot(x.segment<3>(3 * mesh.node(k, p)));
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
+      least = std::min(least, high - low);
+    }
+    result[k] = 1 - least / undeformed;
+  }
+  return result;
+}
+
+SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x) {
+  SolidState state;
+  for (int n = 0; n < mesh.nodes(); ++n) state.nodes.push_back(x.segment<3>(3 * n));
+  state.centerline = centerline(mesh, x);
+  state.s = mesh.s;
+  state.curvature = curvature(state.centerline, mesh.s);
+  state.flattening = flattening(mesh, x);
+  state.determinant = knot_determinant(state.centerline);
+
+  for (int cell = 0; cell < effects.strain->stencils(); ++cell) {
+    const auto s = effects.strain->stress(x, cell);
+    const double mean = s.cauchy.trace() / 3;
+    const Matrix3 deviator = s.cauchy - mean * Matrix3::Identity();
+    state.jacobian.push_back(s.jacobian);
+    state.pressure.push_back(mean);
+    state.von_mises.push_back(std::sqrt(1.5) * deviator.norm());
+    state.min_jacobian = std::min(state.min_jacobian, s.least_jacobian);
+  }
+
+  constexpr double nothing_near = 1.0;  // gap written where no strand faces [D]
+  state.contact_pressure.assign(state.nodes.size(), 0.0);
+  state.gap.assign(state.nodes.size(), nothing_near);
+  if (!effects.contact) return state;
+  const ContactSurface& surface = effects.contact->surface();
+  std::vector<int> samples(state.nodes.size(), 0);
+  for (const auto& sample : effects.contact->samples()) {
+    const int node = surface.node(sample.patch);
+    ++samples[node];
+    if (!sample.faces) continue;
+    state.contact_pressure[node] -= effects.contact->law().slope(sample.gap);
+    state.gap[node] = std::min(state.gap[node], sample.gap);
+  }
+  for (size_t n = 0; n < samples.size(); ++n)
+    if (samples[n] > 0) state.contact_pressure[n] /= samples[n];
+  return state;
+}
+
+}  // namespace bight::solid3d

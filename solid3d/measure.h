@@ -1,0 +1,21 @@
+#pragma once
+
+#include "solid3d/effects.h"
+#include "solid3d/mesh.h"
+#include "solid3d/run_solid.h"
+
+namespace bight::solid3d {
+
+/// Mean of the centre points of each section [D].
+Polyline centerline(const Mesh& mesh, const Vector& x);
+
+/// |d2r/ds2| of a polyline over undeformed arc length s; one-sided at the ends.
+std::vector<double> curvature(const Polyline& line, const std::vector<double>& s);
+
+/// 1 - w/D, w the smallest width of each section between parallel lines in its plane.
+std::vector<double> flattening(const Mesh& mesh, const Vector& x);
+
+/// Everything the writers show of a state, but tension and energies.
+SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x);
+
+}  // namespace bight::solid3d

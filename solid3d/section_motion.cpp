@@ -1,0 +1,100 @@
+#include "solid3d/section_motion.h"
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+namespace bight::solid3d {
+
+namespace {
+
+/// Rotation by the vector w (axis times angle).
+Matrix3 exponential(const Vector3& w) {
+  const double angle = w.norm();
+  if (angle < 1e-12) return Matrix3::Identity();
+  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+}
+
+Vector3 logarithm(const Matrix3& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x) {
+  const int per_layer = mesh.points_per_layer();
+  Vector2 reference_centre = Vector2::Zero();
+  for (const Vector2& p : mesh.section.points) reference_centre += p / per_layer;
+  std::vector<SectionPlace> places(static_cast<size_t>(mesh.layers()));
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const auto nodes =
+        Eigen::Map<const Eigen::Matrix3Xd>(x.data() + 3 * mesh.node(k, 0), 3, per_layer);
+    const Vector3 centre = nodes.rowwise().mean();
+    // A flat section fixes two axes; the third is their cross product.
+    Eigen::Matrix<double, 3, 2> C = Eigen::Matrix<double, 3, 2>::Zero();
+    for (int p = 0; p < per_layer; ++p)
+      C += (nodes.col(p) - centre) * (mesh.section.points[p] - reference_centre).transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix<double, 3, 2>> svd(
+        C, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Matrix<double, 3, 2> axes = svd.matrixU().leftCols<2>() * svd.matrixV().transpose();
+    Matrix3 R;
+    R << axes, axes.col(0).cross(axes.col(1));
+    places[k] = {centre, R};
+  }
+  return places;
+}
+
+void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx) {
+  const int per_layer = mesh.points_per_layer();
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < mesh.layers(); ++k) {
+    auto nodes = Eigen::Map<Eigen::Matrix3Xd>(x.data() + 3 * mesh.node(k, 0), 3, per_layer);
+    const auto step =
+        Eigen::Map<const Eigen::Matrix3Xd>(dx.data() + 3 * mesh.node(k, 0), 3, per_layer);
+    const Vector3 centre = nodes.rowwise().mean(), shift = step.rowwise().mean();
+    // Least squares: (sum |r|^2 1 - r r^T) w = sum r x d
+    Matrix3 inertia = Matrix3::Zero();
+    Vector3 moment = Vector3::Zero();
+    for (int p = 0; p < per_layer; ++p) {
+      const Vector3 r = nodes.col(p) - centre;
+      inertia += r.squaredNorm() * Matrix3::Identity() - r * r.transpose();
+      moment += r.cross(step.col(p) - shift);
+    }
+    const Vector3 w = inertia.ldlt().solve(moment);
+    const Matrix3 R = exponential(w);
+    for (int p = 0; p < per_layer; ++p) {
+      const Vector3 r = nodes.col(p) - centre;
+      const Vector3 strain = step.col(p) - shift - w.cross(r);
+      nodes.col(p) = centre + shift + R * (r + strain);
+    }
+  }
+  const Eigen::Index behind = 3 * static_cast<Eigen::Index>(mesh.nodes());
+  x.tail(x.size() - behind) += dx.tail(x.size() - behind);
+}
+
+Vector extrapolate_sections(const Mesh& mesh, const Vector& before, const Vector& now,
+                            double ratio) {
+  const auto old_places = section_places(mesh, before), places = section_places(mesh, now);
+  Vector x = now;
+  const int per_layer = mesh.points_per_layer();
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const Matrix3& R0 = old_places[k].rotation;
+    const Matrix3& R1 = places[k].rotation;
+    const Matrix3 turn =
+        R1 * exponential(ratio * logarithm(R0.transpose() * R1)) * R1.transpose();
+    const Vector3 shift =
+        ratio * R1 * R0.transpose() * (places[k].centre - old_places[k].centre);
+    for (int p = 0; p < per_layer; ++p) {
+      auto node = x.segment<3>(3 * mesh.node(k, p));
+      node = (places[k].centre + shift + turn * (node - places[k].centre)).eval();
+    }
+  }
+  const Eigen::Index behind = 3 * static_cast<Eigen::Index>(mesh.nodes());
+  x.tail(x.size() - behind) +=
+      ratio * (now.tail(x.size() - behind) - before.tail(x.size() - behind));
+  return x;
+}
+
+}  // namespace bight::solid3d
