@@ -1,0 +1,82 @@
+#include "coupling/command_line.h"
+
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+
+#include "coupling/errors.h"
+
+namespace bight::coupling {
+namespace {
+
+constexpr const char* exit_codes =
+    "Exit status: 0 done; 1 the numerics gave up; 2 bad input; 3 a file could not be read or "
+    "written;\n130 interrupted.";
+
+CLI::App* add_verb(CLI::App& app, const char* verb, const char* does) {
+  CLI::App* sub = app.add_subcommand(verb, does);
+  sub->set_version_flag("--version", BIGHT_VERSION);
+  sub->footer(exit_codes);
+  return sub;
+}
+
+void add_scene(CLI::App* sub, Command& command) {
+  sub->add_option("SCENE", command.scene, "Scene file (TOML)")->required();
+  sub->add_option("--set", command.settings, "Override a key of the scene (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->trigger_on_parse(false);
+}
+
+void add_run_options(CLI::App* sub, Command& command) {
+  sub->add_option("--out", command.out, "Folder for results; default results/SCENE-NAME")
+      ->type_name("DIR");
+  sub->add_option("--threads", command.threads, "Threads; default all cores")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  sub->add_flag("--resume", command.resume, "Go on from the last checkpoint in DIR");
+  sub->add_flag("--force", command.force, "Start over in a folder that is not empty");
+  sub->add_flag("--quiet", command.quiet, "Print nothing but errors");
+}
+
+}  // namespace
+
+std::optional<Command> read_command_line(int argc, char** argv) {
+  Command command;
+  command.threads = omp_get_num_procs();
+  CLI::App app("bight: elastic knots as a Kirchhoff rod and as a 3D solid", "bight");
+  app.set_version_flag("--version", BIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(exit_codes);
+
+  for (const auto& [verb, does] :
+       {std::pair{"run", "Simulate what the scene asks for, then compare the fidelities"},
+        std::pair{"rod", "Rod alone: tie the knot and follow the path"},
+        std::pair{"solid", "Solid alone, seeded by a rod that is tied on the fly"}}) {
+    CLI::App* sub = add_verb(app, verb, does);
+    add_scene(sub, command);
+    add_run_options(sub, command);
+  }
+  add_scene(add_verb(app, "check", "Read a scene, say what will be simulated; run nothing"), command);
+  add_verb(app, "keys", "List every key of a scene: unit, range, default, meaning");
+  CLI::App* compare =
+      add_verb(app, "compare", "Lay force curves of results folders and measured CSV files on each other");
+  compare->add_option("SOURCE", command.sources, "Results folders, or CSV files with columns ebar, force_normalised")
+      ->required();
+  compare->add_option("--out", command.out, "Folder for compare.csv; default: print only")->type_name("DIR");
+  for (const char* later : {"study", "report"})
+    app.add_subcommand(later)->group("")->allow_extras()->set_help_flag();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& answered) {
+    app.exit(answered);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + "; see bight --help");
+  }
+  command.verb = app.get_subcommands().front()->get_name();
+  return command;
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bight::coupling {
+
+/// What the user asked for.
+struct Command {
+  std::string verb;
+  std::filesystem::path scene;
+  std::vector<std::filesystem::path> sources;  ///< of `compare`
+  std::filesystem::path out;                   ///< empty: not given
+  std::vector<std::string> settings;           ///< "key=value"
+  int threads = 1;
+  bool resume = false, force = false, quiet = false;
+};
+
+/// Nothing when the words were answered here (--help, --version). Throws InputError.
+std::optional<Command> read_command_line(int argc, char** argv);
+
+}  // namespace bight::coupling

@@ -1,0 +1,64 @@
+#include "coupling/expect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupling/effects.h"
+#include "solid3d/mesh.h"
+
+namespace bight::coupling {
+namespace {
+
+std::string names(const Scene& scene, bool AskedEffect::*in) {
+  std::string text;
+  for (const AskedEffect& effect : asked_effects(scene))
+    if (effect.*in) text += (text.empty() ? "" : ", ") + effect.name;
+  return text;
+}
+
+std::string rod_line(const Scene& scene) {
+  const int unknowns = 3 * (scene.segments + 1) + (scene.twist ? scene.segments : 0);
+  return fmt::format("rod    {}\n       {} segments of {:.3g} D, {} unknowns, less than 0.1 GB\n",
+                     names(scene, &AskedEffect::in_rod), scene.segments,
+                     scene.slenderness() / scene.segments, unknowns);
+}
+
+// The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
+std::string solid_line(const Scene& scene) {
+  const solid3d::Section section = solid3d::make_section(scene.section_elements);
+  const double width = solid3d::make_mesh(section, {0, 1}).cell_width();
+  const double middle = 0.5 * scene.slenderness();
+  const double half = std::min(middle, 0.5 * (scene.seed_ebar + 6));
+  const solid3d::Mesh mesh = solid3d::make_mesh(
+      section, solid3d::graded_layers(scene.slenderness(), scene.axial_ratio * width,
+                                      scene.tail_ratio * width, middle - half, middle + half));
+  // A layer couples with itself and the next: b (1.5 b) entries a layer, b = 3 points, and fill;
+  // strands in contact about double that.
+  const double block = 3.0 * mesh.points_per_layer();
+  const double entries = 1.2 * mesh.layers() * block * block * (scene.contact ? 2 : 1);
+  const double gigabytes = (8 * entries + 3000.0 * mesh.nodes()) / 1e9;
+  return fmt::format("solid  {}\n       {} cells in a section, about {} layers, {} cells, {} unknowns, "
+                     "{:.1f} GB\n",
+                     names(scene, &AskedEffect::in_solid), section.quads.size(), mesh.layers(),
+                     mesh.cells.size(), 3 * mesh.nodes(), gigabytes);
+}
+
+}  // namespace
+
+std::string expectations(const Scene& scene) {
+  const Scales scales = scene.scales();
+  std::string text = fmt::format(
+      "{}\nL0 = {:.4g} m = {:.5g} D, D = {:.4g} m, E = {:.4g} Pa, B = {:.4g} N m^2; Tbar = 1 is {:.4g} N\n"
+      "ebar", scene.title.empty() ? scene.name : scene.title, scene.length, scene.slenderness(),
+      scene.diameter, scene.youngs_modulus,
+      scales.force() * scales.length() * scales.length() / normalised_force(4), scales.force() / normalised_force(1));
+  for (const double ebar : scene.path.waypoints) text += fmt::format(" -> {:g}", ebar);
+  text += fmt::format(", {} states recorded\n", scene.path.record.size());
+  if (scene.rod || scene.solid) text += rod_line(scene);
+  if (scene.solid) text += solid_line(scene);
+  for (const std::string& warning : scene.warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,24 @@
+#include "coupling/interrupt.h"
+
+#include <csignal>
+
+namespace bight::coupling {
+namespace {
+
+volatile std::sig_atomic_t asked_to_stop = 0;
+
+void ask_to_stop(int signal) {
+  asked_to_stop = 1;
+  std::signal(signal, SIG_DFL);  // the second interrupt kills
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+}
+
+bool interrupted() { return asked_to_stop != 0; }
+
+}  // namespace bight::coupling

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "coupling/command_line.h"
+#include "coupling/compare.h"
+#include "coupling/compare_centerlines.h"
+#include "coupling/errors.h"
+#include "coupling/expect.h"
+#include "coupling/files.h"
+#include "coupling/interrupt.h"
+#include "coupling/keys.h"
+#include "coupling/read_curves.h"
+#include "coupling/run.h"
+
+using namespace bight::coupling;
+
+namespace {
+
+ExitStatus compare_sources(const Command& command) {
+  std::vector<ForceCurve> curves;
+  double friction = 0;
+  for (const auto& source : command.sources) {
+    for (ForceCurve& curve : read_curves(source)) curves.push_back(std::move(curve));
+    if (const auto of_source = read_friction(source)) friction = *of_source;
+  }
+  const Comparison comparison = compare(curves, friction);
+  fmt::print("{}", comparison_text(comparison));
+  if (command.out.empty()) return done;
+  make_folder(command.out);
+  write_comparison(command.out / "compare.csv", comparison);
+  return done;
+}
+
+ExitStatus obey(const Command& command) {
+  if (command.verb == "study" || command.verb == "report")
+    throw InputError("bight " + command.verb + " is not available yet");
+  if (command.verb == "keys") return fmt::print("{}", keys_table()), done;
+  if (command.verb == "compare") return compare_sources(command);
+  if (command.verb == "check")
+    return fmt::print("{}", expectations(read_scene(command.scene, command.settings))), done;
+
+  const std::vector<std::string> only =
+      command.verb == "run" ? std::vector<std::string>{} : std::vector{command.verb};
+  const Scene scene = read_scene(command.scene, command.settings, only);
+  catch_interrupts();
+  return run(scene, {.folder = command.out.empty() ? std::filesystem::path("results") / scene.name : command.out,
+                     .threads = command.threads,
+                     .resume = command.resume,
+                     .force = command.force,
+                     .quiet = command.quiet});
+}
+
+ExitStatus fail(ExitStatus status, const std::exception& error) {
+  fmt::print(stderr, "{}\n", error.what());
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const auto command = read_command_line(argc, argv);
+    return command ? obey(*command) : done;
+  } catch (const InputError& error) {
+    return fail(bad_input, error);
+  } catch (const FileError& error) {
+    return fail(file_trouble, error);
+  } catch (const std::exception& error) {
+    return fail(gave_up, error);
+  }
+}

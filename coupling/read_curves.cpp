@@ -1,0 +1,52 @@
+#include "coupling/read_curves.h"
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/errors.h"
+#include "coupling/files.h"
+#include "coupling/read_table.h"
+
+namespace bight::coupling {
+namespace {
+
+namespace fs = std::filesystem;
+
+ForceCurve read_curve(const fs::path& file, const std::string& name) {
+  const Table table = read_table(file);
+  const int ebar = table.column("ebar"), force = table.column("force_normalised");
+  ForceCurve curve{name, {}, {}};
+  for (const auto& row : table.rows) {
+    curve.ebar.push_back(row[ebar]);
+    curve.force.push_back(row[force]);
+  }
+  if (curve.ebar.empty()) throw InputError(file.string() + ": no rows");
+  return curve;
+}
+
+std::string folder_name(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+}  // namespace
+
+std::vector<ForceCurve> read_curves(const fs::path& source) {
+  if (!fs::exists(source)) throw InputError(source.string() + ": there is no such file or folder");
+  if (!fs::is_directory(source)) return {read_curve(source, source.stem().string())};
+  std::vector<ForceCurve> curves;
+  for (const char* fidelity : {"rod", "solid"}) {
+    const fs::path file = source / fidelity / "force.csv";
+    if (fs::exists(file)) curves.push_back(read_curve(file, folder_name(source) + "_" + fidelity));
+  }
+  if (curves.empty()) throw InputError(source.string() + ": no rod/force.csv and no solid/force.csv");
+  return curves;
+}
+
+std::optional<double> read_friction(const fs::path& source) {
+  if (!fs::is_regular_file(source / "summary.json")) return std::nullopt;
+  const auto summary = nlohmann::json::parse(read_whole(source / "summary.json"), nullptr, false);
+  if (!summary.is_object() || !summary.contains("friction")) return std::nullopt;
+  return summary["friction"].get<double>();
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "coupling/force_curve.h"
+
+namespace bight::coupling {
+
+/// The force curves of a results folder (rod, solid), or the one of a measured CSV file with columns
+/// ebar and force_normalised. Throws InputError when there is none.
+std::vector<ForceCurve> read_curves(const std::filesystem::path& source);
+
+/// Coulomb coefficient of a results folder; nothing for a measured file.
+std::optional<double> read_friction(const std::filesystem::path& source);
+
+}  // namespace bight::coupling

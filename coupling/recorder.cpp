@@ -1,0 +1,92 @@
+#include "coupling/recorder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "coupling/interrupt.h"
+
+namespace bight::coupling {
+
+Recorder::Files::Files(const std::filesystem::path& in, const std::string& name,
+                       const Scales& scales)
+    : folder((make_folder(in / name / "centerline"), make_folder(in / name / "vtu"), in / name)),
+      force(folder / "force.csv", scales),
+      series(folder / (name + ".pvd")) {}
+
+std::string Recorder::Files::next_name(double ebar) {
+  const std::string name = state_name(ebar);
+  const int times = ++met[name];
+  return times == 1 ? name : fmt::format("{}_{}", name, times);
+}
+
+Recorder::Recorder(const std::filesystem::path& folder, const Scene& scene, bool quiet)
+    : progress((make_folder(folder), folder / "run.log"), quiet), folder_(folder), scene_(scene) {
+  write_whole(folder / "scene.toml", scene.text);
+  for (const std::string& warning : scene.warnings) progress.say("warning: " + warning);
+}
+
+rod1d::RodObserver Recorder::watch_rod(const Path& path) {
+  if (scene_.rod) rod_.emplace(folder_, "rod", scene_.scales());
+  progress.begin("rod", path);
+  phases.enter("tie");
+  rod1d::RodObserver observer;
+  observer.on_step = [this](const StepRow& row) {
+    phases.enter("write");
+    progress.step(row);
+    if (rod_) rod_->force.step(row);
+    phases.enter("rod");
+  };
+  observer.on_record = [this](const rod1d::RodState& state) {
+    phases.enter("write");
+    if (!seed && std::abs(state.ebar - scene_.seed_ebar) < 1e-6) seed = state;
+    if (rod_) write(state);
+    phases.enter("rod");
+  };
+  observer.interrupted = interrupted;
+  return observer;
+}
+
+solid3d::SolidObserver Recorder::watch_solid(const solid3d::Mesh& mesh, const Path& path) {
+  solid_.emplace(folder_, "solid", scene_.scales());
+  progress.begin("solid", path);
+  phases.enter("seed");
+  solid3d::SolidObserver observer;
+  observer.on_step = [this](const StepRow& row) {
+    phases.enter("write");
+    progress.step(row);
+    solid_->force.step(row);
+    phases.enter("tighten");
+  };
+  observer.on_record = [this, &mesh](const solid3d::SolidState& state) {
+    phases.enter("write");
+    write(mesh, state);
+    phases.enter("tighten");
+  };
+  observer.interrupted = interrupted;
+  return observer;
+}
+
+void Recorder::write(const rod1d::RodState& state) {
+  const std::string name = rod_->next_name(state.ebar);
+  write_centerline(rod_->folder / "centerline" / (name + ".csv"), state.s, state.nodes,
+                   state.curvature, {{"contact_force", state.contact_force}});
+  write_rod_vtu(rod_->folder / "vtu" / (name + ".vtu"), state, scene_.scales());
+  rod_->series.add(state.ebar, "vtu/" + name + ".vtu");
+}
+
+void Recorder::write(const solid3d::Mesh& mesh, const solid3d::SolidState& state) {
+  const std::string name = solid_->next_name(state.ebar);
+  write_centerline(solid_->folder / "centerline" / (name + ".csv"), state.s, state.centerline,
+                   state.curvature, {{"flattening", state.flattening}});
+  write_solid_vtu(solid_->folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
+  solid_->series.add(state.ebar, "vtu/" + name + ".vtu");
+  solid3d::SolidState light = state;
+  for (auto* field : {&light.jacobian, &light.pressure, &light.von_mises, &light.contact_pressure,
+                      &light.gap})
+    field->clear();
+  light.nodes.clear();
+  solid_states.push_back(std::move(light));
+}
+
+}  // namespace bight::coupling

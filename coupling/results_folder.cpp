@@ -1,0 +1,56 @@
+#include "coupling/results_folder.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coupling/errors.h"
+#include "coupling/files.h"
+
+namespace bight::coupling {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_scene(const fs::path& folder, const Scene& scene) {
+  return fs::is_regular_file(folder / "scene.toml") &&
+         read_whole(folder / "scene.toml") == scene.text;
+}
+
+bool finished(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / "summary.json")) return false;
+  const auto summary = nlohmann::json::parse(read_whole(folder / "summary.json"), nullptr, false);
+  return summary.is_object() && summary.value("status", "") == "finished";
+}
+
+// Only what a run writes; a user's own notes stay.
+void clear(const fs::path& folder) {
+  for (const char* name : {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "run.log"})
+    fs::remove(folder / name);
+  for (const char* fidelity : {"rod", "solid"}) {
+    fs::remove(folder / fidelity / "force.csv");
+    fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
+    for (const char* kind : {"centerline", "vtu"}) fs::remove_all(folder / fidelity / kind);
+  }
+}
+
+}  // namespace
+
+FolderState take_folder(const fs::path& folder, const Scene& scene, bool resume, bool force) {
+  if (!fs::exists(folder)) return FolderState::fresh;
+  if (!fs::is_directory(folder)) throw InputError(folder.string() + ": not a folder");
+  if (fs::is_empty(folder)) return FolderState::fresh;
+  if (force) {
+    clear(folder);
+    return FolderState::fresh;
+  }
+  if (same_scene(folder, scene) && finished(folder)) return FolderState::finished;
+  if (resume)
+    throw InputError(fmt::format("{}: no checkpoint to go on from; --force starts over",
+                                 folder.string()));
+  throw InputError(fmt::format("{}: the folder is not empty and holds no finished result of this "
+                               "scene; --force starts over, --out names another folder",
+                               folder.string()));
+}
+
+}  // namespace bight::coupling

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "coupling/scene.h"
+
+namespace bight::coupling {
+
+enum class FolderState { fresh, finished };
+
+/// Looks at the folder for results before anything is written. A finished result of the very same
+/// scene is `finished`; an absent or empty folder is `fresh`, and so is one that `force` clears of
+/// everything bight writes. Any other folder is refused by InputError.
+FolderState take_folder(const std::filesystem::path& folder, const Scene& scene, bool resume,
+                        bool force);
+
+}  // namespace bight::coupling

@@ -1,0 +1,71 @@
+#include "coupling/run.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "coupling/compare.h"
+#include "coupling/recorder.h"
+#include "coupling/results_folder.h"
+#include "coupling/sweep.h"
+#include "coupling/write_summary.h"
+
+namespace bight::coupling {
+namespace {
+
+ForceCurve curve(const std::string& name, const std::vector<StepRow>& steps) {
+  ForceCurve result{name, {}, {}};
+  for (const StepRow& row : steps) {
+    result.ebar.push_back(row.ebar);
+    result.force.push_back(normalised_force(row.tension));
+  }
+  return result;
+}
+
+solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder) {
+  recorder.phases.enter("seed");
+  const rod1d::RodState& seed = *recorder.seed;
+  const solid3d::Mesh mesh = swept_mesh(
+      {.section_elements = scene.section_elements, .axial_ratio = scene.axial_ratio,
+       .tail_ratio = scene.tail_ratio},
+      seed);
+  const std::vector<Vector3> start = sweep(mesh, seed);
+  solid3d::SolidParameters parameters = solid_parameters(scene);
+  parameters.expected_tension = seed.tension;
+  return run_solid(mesh, start, seed.ebar, parameters, recorder.watch_solid(mesh, parameters.path));
+}
+
+Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recorder& recorder) {
+  recorder.phases.enter("compare");
+  std::vector<ForceCurve> curves;
+  if (scene.rod) curves.push_back(curve("rod", report.rod.steps));
+  if (report.solid) curves.push_back(curve("solid", report.solid->steps));
+  const Comparison comparison = compare(curves, scene.friction);
+  write_comparison(recorder.folder() / "compare.csv", comparison);
+  recorder.progress.say(comparison_text(comparison));
+  return comparison;
+}
+
+}  // namespace
+
+ExitStatus run(const Scene& scene, const RunOptions& options) {
+  const rod1d::RodParameters rod = rod_parameters(scene);
+  if (take_folder(options.folder, scene, options.resume, options.force) == FolderState::finished) {
+    fmt::print("{} holds the finished result of this very scene\n", options.folder.string());
+    return done;
+  }
+  omp_set_num_threads(options.threads);
+  Recorder recorder(options.folder, scene, options.quiet);
+  RunReport report{scene, options.threads};
+
+  report.rod = run_rod(rod, recorder.watch_rod(rod.path));
+  if (scene.solid && recorder.seed && !report.interrupted())
+    report.solid = run_seeded_solid(scene, recorder);
+  recorder.progress.end();
+  report.comparison = compare_fidelities(scene, report, recorder);
+  write_summary(report, recorder);
+
+  recorder.progress.say(fmt::format("{}; results in {}", report.verdict(), options.folder.string()));
+  return report.interrupted() ? stopped : report.finished() ? done : gave_up;
+}
+
+}  // namespace bight::coupling
