@@ -1,0 +1,95 @@
+#include "rod1d/measure.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace bight::rod1d {
+
+Polyline nodes_of(const Rod& rod, const Vector& x) {
+  Polyline nodes;
+  for (int i = 0; i < rod.nodes(); ++i) nodes.push_back(x.segment<3>(Rod::position(i)));
+  return nodes;
+}
+
+std::vector<double> curvature(const Rod& rod, const Vector& x) {
+  const Polyline p = nodes_of(rod, x);
+  std::vector<double> kappa(p.size(), 0.0);
+  for (size_t i = 1; i + 1 < p.size(); ++i) {
+    const Vector3 t0 = (p[i] - p[i - 1]).normalized(), t1 = (p[i + 1] - p[i]).normalized();
+    kappa[i] = 2 * t0.cross(t1).norm() / (1 + t0.dot(t1)) / rod.voronoi_length(static_cast<int>(i));
+  }
+  return kappa;
+}
+
+std::vector<double> stretch(const Rod& rod, const Vector& x) {
+  std::vector<double> ratio;
+  for (int i = 0; i < rod.segments(); ++i)
+    ratio.push_back((x.segment<3>(Rod::position(i + 1)) - x.segment<3>(Rod::position(i))).norm() /
+                    rod.rest_length[i]);
+  return ratio;
+}
+
+std::vector<double> contact_force(const Rod& rod, const Contact& contact) {
+  std::vector<double> force(rod.nodes(), 0.0);
+  for (const ContactPoint& at : contact.touching()) {
+    const double size = -at.weight * contact.law().slope(at.gap);
+    const auto share = [&](int segment, double where) {
+      const double u = where / rod.rest_length[segment];
+      force[segment] += (1 - u) * size;
+      force[segment + 1] += u * size;
+    };
+    share(at.segment, at.at);
+    share(at.facing, at.facing_at);
+  }
+  for (int i = 0; i < rod.nodes(); ++i) {
+    const double before = i > 0 ? rod.rest_length[i - 1] : 0;
+    const double behind = i < rod.segments() ? rod.rest_length[i] : 0;
+    force[i] /= 0.5 * (before + behind);
+  }
+  return force;
+}
+
+double max_penetration(const Contact& contact) {
+  double largest = 0;
+  for (const ContactPoint& at : contact.touching()) largest = std::max(largest, -at.gap);
+  return largest;
+}
+
+namespace {
+
+/// Solid angle over 4 pi that segment 3-4 spans on segment 1-2, with its sign.
+double gauss_exact(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& p4) {
+  const Vector3 r13 = p3 - p1, r14 = p4 - p1, r23 = p3 - p2, r24 = p4 - p2;
+  const Vector3 n[4] = {r13.cross(r14).stableNormalized(), r14.cross(r24).stableNormalized(),
+                        r24.cross(r23).stableNormalized(), r23.cross(r13).stableNormalized()};
+  double angle = 0;
+  for (int k = 0; k < 4; ++k) angle += std::asin(std::clamp(n[k].dot(n[(k + 1) % 4]), -1.0, 1.0));
+  const double sign = (p4 - p3).cross(p2 - p1).dot(r13);
+  return sign > 0 ? angle : sign < 0 ? -angle : 0.0;
+}
+
+}  // namespace
+
+double writhe(const Polyline& line) {
+  constexpr double far = 6;  // midpoints in segment lengths: error of the midpoint rule < 1 %
+  double sum = 0;
+  for (size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vector3 e = line[i + 1] - line[i], middle = 0.5 * (line[i + 1] + line[i]);
+    const double size = e.norm();
+    for (size_t j = i + 2; j + 1 < line.size(); ++j) {
+      const Vector3 f = line[j + 1] - line[j], r = 0.5 * (line[j + 1] + line[j]) - middle;
+      const double square = r.squaredNorm();
+      if (square > far * far * size * size)
+        sum -= e.cross(f).dot(r) / (square * std::sqrt(square));
+      else
+        sum += gauss_exact(line[i], line[i + 1], line[j], line[j + 1]);
+    }
+  }
+  // Every pair counts twice in the double integral over 4 pi.
+  return sum / (2 * std::numbers::pi);
+}
+
+}  // namespace bight::rod1d

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mechanics/types.h"
+
+namespace bight::rod1d {
+
+/// A straight round rod, cut into segments: its section and its undeformed lengths.
+///
+/// The state is one vector: positions of the nodes, three each, then, where twist is simulated, the
+/// twist angles of the segments.
+struct Rod {
+  std::vector<double> rest_length;  ///< of the segments [D]
+  double stretching_stiffness = std::numbers::pi / 4;  ///< EA [E D^2]
+  double bending_stiffness = std::numbers::pi / 64;    ///< B [E D^4]
+  double twisting_stiffness = 0;                       ///< C = B/(1 + nu) [E D^4]
+
+  int segments() const { return static_cast<int>(rest_length.size()); }
+  int nodes() const { return segments() + 1; }
+
+  static int position(int node) { return 3 * node; }
+  int angle(int segment) const { return 3 * nodes() + segment; }
+
+  /// Length that node i stands for in the sum over inner nodes [D].
+  double voronoi_length(int node) const {
+    return 0.5 * (rest_length[node - 1] + rest_length[node]);
+  }
+  /// Undeformed arc length of the nodes from the start [D].
+  std::vector<double> arc_length() const {
+    std::vector<double> s(1, 0.0);
+    for (double l : rest_length) s.push_back(s.back() + l);
+    return s;
+  }
+};
+
+inline Rod uniform_rod(double length, int segments, double poissons_ratio) {
+  Rod rod;
+  rod.rest_length.assign(segments, length / segments);
+  rod.twisting_stiffness = rod.bending_stiffness / (1 + poissons_ratio);
+  return rod;
+}
+
+}  // namespace bight::rod1d

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "mechanics/path.h"
+#include "rod1d/effects.h"
+#include "rod1d/run_rod.h"
+
+namespace bight::rod1d {
+
+/// The rod as follow() sees it: its accepted states, how the next is guessed, solved and measured.
+class RodModel final : public PathModel {
+ public:
+  RodModel(const RodParameters& parameters, const Polyline& start);
+  ~RodModel() override;
+
+  Vector predict(double ebar) const override;
+  NewtonResult solve(const Vector& guess, double ebar) override;
+  StepRow accept(const NewtonResult& result, double ebar) override;
+
+  /// ebar of the start, as it was given.
+  double start_ebar() const { return start_ebar_; }
+  /// Knot type of the start: what every later state must have.
+  int determinant() const { return determinant_; }
+
+  /// The newest accepted state in full.
+  RodState state() const;
+
+  int unknowns() const;
+  std::vector<std::string> effect_names() const;
+
+ private:
+  struct Equations;
+  struct Accepted {
+    double ebar;
+    Vector x;
+  };
+  double end_to_end(double ebar) const { return length_ - ebar; }
+  void choose_pin(const Vector& x);
+  Vector tangent(double ebar) const;
+  NewtonResult solve_once(const Vector& guess);
+
+  RodParameters parameters_;
+  Rod rod_;
+  double length_, start_ebar_;
+  int determinant_;
+  RodEffects effects_;
+  std::unique_ptr<Equations> equations_;
+  int pin_ = -1;                     ///< coordinate held against rotation about the axis, or -1
+  double stiffness_ = 0;             ///< of contact, where the next solve begins
+  double force_scale_;               ///< tension expected [E D^2]
+  std::vector<Accepted> accepted_;   ///< the newest few, newest last
+  double tension_ = 0;               ///< of the newest accepted state
+  std::map<std::string, double> energy_by_effect_;
+  std::chrono::steady_clock::time_point began_;
+};
+
+}  // namespace bight::rod1d

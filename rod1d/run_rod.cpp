@@ -1,0 +1,72 @@
+#include "rod1d/run_rod.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "rod1d/overhand.h"
+#include "rod1d/rod_model.h"
+
+namespace bight::rod1d {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+void check(const RodParameters& parameters) {
+  if (parameters.friction != 0)
+    throw std::invalid_argument("the rod does not simulate friction yet: leave friction out");
+  if (parameters.twist) throw std::invalid_argument("the rod does not simulate twist yet");
+  if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");
+  if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
+}
+
+Polyline start_of(const RodParameters& parameters) {
+  if (!parameters.start.empty()) return parameters.start;
+  return overhand_start(parameters.length,
+                        std::max(parameters.path.waypoints.front(), loosest_overhand),
+                        parameters.segments);
+}
+
+/// From the start's own ebar to the first waypoint.
+PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObserver& observer) {
+  Path path = parameters.path;
+  path.waypoints = {model.start_ebar(), parameters.path.waypoints.front()};
+  path.record.clear();
+  PathObserver silent;
+  silent.interrupted = observer.interrupted;
+  return follow(path, model, silent);
+}
+
+}  // namespace
+
+RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) {
+  check(parameters);
+  RodResult result;
+  const auto began = std::chrono::steady_clock::now();
+  RodModel model(parameters, start_of(parameters));
+  result.unknowns = model.unknowns();
+  result.effects = model.effect_names();
+  result.outcome = tie(model, parameters, observer);
+  result.seconds["tie"] = seconds_since(began);
+  if (result.outcome.status != PathStatus::finished) return result;
+
+  const auto tied = std::chrono::steady_clock::now();
+  PathObserver path_observer;
+  path_observer.interrupted = observer.interrupted;
+  path_observer.on_step = [&](const StepRow& row) {
+    result.steps.push_back(row);
+    observer.on_step(row);
+  };
+  path_observer.on_record = [&](double) {
+    result.states.push_back(model.state());
+    observer.on_record(result.states.back());
+  };
+  result.outcome = follow(parameters.path, model, path_observer);
+  result.seconds["path"] = seconds_since(tied);
+  return result;
+}
+
+}  // namespace bight::rod1d
