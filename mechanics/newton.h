@@ -19,7 +19,7 @@ struct System {
   std::function<void(Vector& x, const Vector& dx)> advance;
   int analysed_pattern = 0;  ///< pattern version that the symbolic analysis belongs to
   double shift = 0;          ///< diagonal shift of the last factorisation, where the next one begins
-  std::map<std::string, double> seconds;  ///< wall seconds by phase, summed over all solves
+  std::map<std::string, double> seconds{};  ///< wall seconds by phase, summed over all solves
 };
 
 struct NewtonOptions {
