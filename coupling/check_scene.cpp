@@ -24,29 +24,40 @@ class Check {
   void knot() {
     if (values_.has("knot.type") && values_.has("knot.centerline"))
       return refuse("knot.centerline", "give either knot.type or knot.centerline, not both");
-    if (scene_.slenderness() < shortest_rod)
-      return refuse("rod.length", fmt::format("{:.3g} diameters are too short for a knot; at least {}",
-                                              scene_.slenderness(), shortest_rod));
     try {
       knot_start(scene_);
     } catch (const InputError& error) {
-      refuse("knot.centerline", error.what());
+      refuse(scene_.centerline.empty() ? "knot.type" : "knot.centerline", error.what());
     }
   }
 
-  void path() {
+  bool path() {
+    bool fits = true;
+    const auto refuse_ebar = [&](const std::string& what) {
+      refuse("path.ebar", what);
+      fits = false;
+    };
     const double highest = scene_.slenderness() - shortest_reach;
     const double lowest = scene_.slenderness() * (1 - largest_stretch);
     for (const double ebar : scene_.path.waypoints) {
       if (ebar > highest)
-        refuse("path.ebar", fmt::format("{} is more than a rod of L0 = {:.4g} D holds with straight "
+        refuse_ebar(fmt::format("{} is more than a rod of L0 = {:.4g} D holds with straight "
                                         "tails; at most {:.4g}", ebar, scene_.slenderness(), highest));
       if (ebar < lowest)
-        refuse("path.ebar", fmt::format("{} stretches the rod to more than twice its length; at "
+        refuse_ebar(fmt::format("{} stretches the rod to more than twice its length; at "
                                         "least {:.4g}", ebar, lowest));
     }
     for (const double ebar : scene_.path.record) on_path("path.record", ebar);
     if (scene_.solid) on_path("solid3d.seed_ebar", scene_.seed_ebar);
+    return fits;
+  }
+
+  bool length() {
+    const bool fits = scene_.slenderness() >= shortest_rod;
+    if (!fits)
+      refuse("rod.length", fmt::format("{:.3g} diameters are too short for a knot; at least {}",
+                                       scene_.slenderness(), shortest_rod));
+    return fits;
   }
 
   void material() {
@@ -72,9 +83,12 @@ class Check {
   }
 
   void effects() {
+    bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
-      if (!effect.available)
+      if (!effect.available && !(refused && !values_.written(effect.key))) {
+        refused = true;
         refuse(effect.key, effect.name + " cannot be simulated yet; available: " + available());
+      }
   }
 
  private:
@@ -92,16 +106,11 @@ class Check {
   }
 
   void refuse(const std::string& key, const std::string& what) {
-    problems_.add(place(key), key, what);
+    problems_.add(values_.where(key), key, what);
   }
   void warn(const std::string& key, const std::string& what) {
-    scene_.warnings.push_back(fmt::format("{}: {}: {}", place(key), key, what));
+    scene_.warnings.push_back(fmt::format("{}: {}: {}", values_.where(key), key, what));
   }
-  std::string place(const std::string& key) const {
-    const std::string where = values_.where(key);
-    return where.empty() ? scene_.name + ".toml" : where;
-  }
-
   Scene& scene_;
   const Values& values_;
   Problems& problems_;
@@ -111,8 +120,7 @@ class Check {
 
 void check_scene(Scene& scene, const Values& values, Problems& problems) {
   Check check(scene, values, problems);
-  check.knot();
-  check.path();
+  if (check.length() && check.path()) check.knot();
   check.material();
   check.resolution();
   check.effects();

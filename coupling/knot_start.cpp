@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "coupling/errors.h"
 #include "coupling/read_centerline.h"
@@ -29,9 +31,14 @@ Polyline from_file(const Scene& scene) {
 
 Polyline knot_start(const Scene& scene) {
   if (!scene.centerline.empty()) return from_file(scene);
-  const double ebar = scene.path.waypoints.front();
-  return scene.knot == "overhand" ? rod1d::overhand_start(scene.slenderness(), ebar, scene.segments)
-                                  : rod1d::figure_eight_start(scene.slenderness(), ebar, scene.segments);
+  if (scene.knot != "overhand")
+    throw InputError(scene.knot + " cannot be tied yet; there are overhand and knot.centerline");
+  const double ebar = std::max(scene.path.waypoints.front(), rod1d::loosest_overhand);
+  try {
+    return rod1d::overhand_start(scene.slenderness(), ebar, scene.segments);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(error.what());
+  }
 }
 
 }  // namespace bight::coupling

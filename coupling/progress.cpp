@@ -28,7 +28,7 @@ std::string status_line(const std::string& fidelity, const StepRow& row) {
       "{:.2f} s",
       fidelity, row.ebar, row.increment, normalised_force(row.tension), row.newton_iterations,
       row.contact_pairs, row.residual, row.wall_s);
-  if (row.cutbacks > 0) line += fmt::format("  cut {} times: {}", row.cutbacks, row.cut_reason);
+  if (row.cutbacks > 0) line += fmt::format("  cutbacks {} ({})", row.cutbacks, row.cut_reason);
   return line;
 }
 

@@ -99,7 +99,11 @@ std::string unknown_key(const std::string& path) {
 void take(const std::string& path, const toml::node& node, const std::string& where, Values& values,
           Problems& problems) {
   const Key* key = find_key(path);
-  if (!key) return problems.add(where, path, unknown_key(path));
+  if (!key) {
+    problems.add(where, path, unknown_key(path));
+    problems.excuse(nearest_key(path).path);  // a misspelt key is not missing as well
+    return;
+  }
   try {
     values.set(path, {to_value(*key, node), where});
   } catch (const Unfit& unfit) {
@@ -149,7 +153,7 @@ bool is_text(const std::string& text) {
 Values read_values(const std::string& text, const std::string& name,
                    const std::vector<std::string>& overrides, Problems& problems) {
   if (!is_text(text)) throw InputError(name + ": binary data, not the TOML text of a scene");
-  Values values;
+  Values values(name);
   try {
     const toml::table table = toml::parse(text);
     if (table.empty())

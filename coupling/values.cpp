@@ -45,9 +45,13 @@ void Problems::throw_if_any() const {
   if (any()) throw InputError(fmt::format("{}", fmt::join(lines_, "\n")));
 }
 
-std::string Values::where(std::string_view key) const {
+bool Values::written(std::string_view key) const {
   const auto found = given_.find(std::string(key));
-  return found == given_.end() ? std::string() : found->second.where;
+  return found != given_.end() && !found->second.where.empty();
+}
+
+std::string Values::where(std::string_view key) const {
+  return written(key) ? given_.at(std::string(key)).where : scene_;
 }
 
 std::string Values::toml() const {

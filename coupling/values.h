@@ -22,6 +22,7 @@ struct Given {
 class Problems {
  public:
   void add(const std::string& where, const std::string& key, const std::string& what);
+  void excuse(std::string_view key) { keys_.insert(std::string(key)); }  ///< no word on it any more
   bool about(const std::string& key) const { return keys_.contains(key); }
   bool any() const { return !lines_.empty(); }
   void throw_if_any() const;  ///< InputError with one line per problem
@@ -34,8 +35,10 @@ class Problems {
 /// Values by key path, each of the key's kind and within its range.
 class Values {
  public:
+  explicit Values(std::string scene) : scene_(std::move(scene)) {}
   bool has(std::string_view key) const { return given_.contains(std::string(key)); }
-  std::string where(std::string_view key) const;
+  bool written(std::string_view key) const;  ///< by the user, that is not a default
+  std::string where(std::string_view key) const;  ///< the scene as a whole for a default
   void set(std::string_view key, Given given) { given_[std::string(key)] = std::move(given); }
   /// The value of a key, or what `T` is without one.
   template <class T>
@@ -49,6 +52,7 @@ class Values {
   std::string toml() const;
 
  private:
+  std::string scene_;
   std::map<std::string, Given> given_;
 };
 

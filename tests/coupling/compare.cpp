@@ -1,0 +1,89 @@
+#include "coupling/compare.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "coupling/errors.h"
+#include "coupling/read_curves.h"
+#include "temporary_folder.h"
+
+using namespace bight::coupling;
+
+namespace {
+
+ForceCurve sampled(const std::string& name, double step, double (*force)(double), double from = 20,
+                   double to = 5) {
+  ForceCurve curve{name, {}, {}};
+  for (double ebar = from; ebar >= to - 1e-9; ebar -= step) {
+    curve.ebar.push_back(ebar);
+    curve.force.push_back(force(ebar));
+  }
+  return curve;
+}
+
+double law(double ebar) { return *loose_knot_law(ebar, 0, true); }
+
+}  // namespace
+
+TEST_CASE("the loose-knot law has its published values") {
+  CHECK(*loose_knot_law(10, 0, true) == Approx(M_PI * M_PI / 200));
+  CHECK(*loose_knot_law(100, 0.32, true) - *loose_knot_law(100, 0.32, false) ==
+        Approx(2 * 0.492 * 0.32 * std::pow(M_PI, 1.5) / 1000));
+  CHECK_FALSE(loose_knot_law(0, 0, true));
+}
+
+TEST_CASE("values between steps are found to a small part of a percent") {
+  const ForceCurve curve = sampled("rod", 0.5, law);
+  for (double ebar = 19.9; ebar > 5; ebar -= 0.37)
+    CHECK(*force_at(curve, ebar) == Approx(law(ebar)).epsilon(1e-3));
+  CHECK_FALSE(force_at(curve, 20.1));
+  CHECK_FALSE(force_at(curve, 4.9));
+}
+
+TEST_CASE("curves part where their difference stays above a level") {
+  const ForceCurve rod = sampled("rod", 0.5, law);
+  const ForceCurve solid =
+      sampled("solid", 0.3, [](double e) { return law(e) * (1 - 0.01 * (20 - e)); });
+  const Comparison comparison = compare({rod, solid}, 0);
+  CHECK(*parted_at(comparison, 1, 0.02) == Approx(18).margin(0.05));
+  CHECK(*parted_at(comparison, 1, 0.05) == Approx(15).margin(0.05));
+  CHECK(*parted_at(comparison, 1, 0.10) == Approx(10).margin(0.05));
+  CHECK_FALSE(parted_at(comparison, 1, 0.2));
+  CHECK(comparison_text(comparison).find("5 % from ebar 15.0") != std::string::npos);
+}
+
+TEST_CASE("tightening and loosening are compared apart") {
+  ForceCurve loop = sampled("loop", 0.5, law);
+  ForceCurve back = sampled("loop", 0.5, [](double e) { return 0.5 * law(e); });
+  loop.ebar.insert(loop.ebar.end(), back.ebar.rbegin() + 1, back.ebar.rend());
+  loop.force.insert(loop.force.end(), back.force.rbegin() + 1, back.force.rend());
+  CHECK(legs(loop).size() == 2);
+  const Comparison comparison = compare({loop, sampled("rod", 0.5, law)}, 0);
+  for (const auto& row : comparison.rows) {
+    if (row.tightening)
+      CHECK(std::abs(*row.difference(1)) < 1e-12);
+    else
+      CHECK_FALSE(row.force[1]);
+  }
+}
+
+TEST_CASE("noise of a measurement is not a turn") {
+  ForceCurve curve = sampled("measured", 0.5, law);
+  for (size_t i = 1; i < curve.ebar.size(); i += 3) curve.ebar[i] += 0.6;
+  CHECK(legs(curve).size() == 1);
+}
+
+TEST_CASE("measured files are read by the names of their columns") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("measured.csv", "force_normalised;Ebar\n0,5;20\n1,25;10,5\n");
+  const auto curves = read_curves(file);
+  REQUIRE(curves.size() == 1);
+  CHECK(curves[0].name == "measured");
+  CHECK(curves[0].ebar == std::vector<double>{20, 10.5});
+  CHECK(curves[0].force == std::vector<double>{0.5, 1.25});
+  CHECK_THROWS_AS(read_curves(folder.write("a.csv", "ebar,force\n1,2\n")), InputError);
+  CHECK_THROWS_AS(read_curves(folder.write("b.csv", "ebar,force_normalised\n1,x\n")), InputError);
+  CHECK_THROWS_AS(read_curves(folder.write("c.csv", "ebar,force_normalised\n1\n")), InputError);
+  CHECK_THROWS_AS(read_curves(folder / "absent"), InputError);
+}

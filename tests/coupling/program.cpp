@@ -1,0 +1,137 @@
+// The built program from outside: exit status, messages, what is written and what is not.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "coupling/read_table.h"
+#include "small_scene.h"
+#include "temporary_folder.h"
+
+namespace {
+
+struct Outcome {
+  int status;
+  std::string said, complained;
+};
+
+Outcome call(const TemporaryFolder& folder, const std::string& words) {
+  const std::string command = "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words +
+                              " > said 2> complained";
+  const int status = std::system(command.c_str());
+  return {WEXITSTATUS(status), text_of(folder / "said"), text_of(folder / "complained")};
+}
+
+// A scene that a rod of few segments finishes in a blink.
+std::string quick_scene() {
+  return "fidelities = [\"rod\"]\n" + small_scene_with("[30, 20]", "[30, 28]") +
+         "[rod1d]\nsegments = 120\n";
+}
+
+size_t lines(const std::string& text) { return std::ranges::count(text, '\n'); }
+
+}  // namespace
+
+TEST_CASE("bad input ends with 2, one message, and nothing written") {
+  const TemporaryFolder folder;
+  folder.write("typo.toml", small_scene_with("diameter", "diamter"));
+  folder.write("unit.toml", small_scene_with("8.3 mm", "8.3 kg"));
+  folder.write("negative.toml", small_scene_with("8.3 mm", "-8.3 mm"));
+  folder.write("poisson.toml", small_scene_with("[path]", "poissons_ratio = 2\n[path]"));
+  folder.write("loose.toml", small_scene_with("[30, 20]", "[50, 20]"));
+  folder.write("nan.toml", small_scene_with("\"8.3 mm\"", "nan"));
+  folder.write("empty.toml", "");
+  folder.write("binary.toml", std::string("\x7f" "ELF\0\1\2\xff", 8));
+  folder.write("good.toml", quick_scene());
+  const std::string words = GENERATE(
+      "run typo.toml", "rod unit.toml", "solid negative.toml", "run poisson.toml", "run loose.toml",
+      "run nan.toml", "run empty.toml", "run binary.toml", "run missing.toml", "run .",
+      "check typo.toml", "run good.toml --set rod.diameter=-1", "run good.toml --threads 0",
+      "run good.toml --threads two", "run", "run good.toml --unheard-of", "tie good.toml", "",
+      "compare missing.csv", "study good.toml", "report somewhere", "run good.toml --set");
+  const Outcome outcome = call(folder, words);
+  CAPTURE(words, outcome.complained);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.said.empty());
+  CHECK(lines(outcome.complained) == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "results"));
+}
+
+TEST_CASE("help, version, keys and check answer with 0 and write nothing") {
+  const TemporaryFolder folder;
+  folder.write("good.toml", quick_scene());
+  const std::string words = GENERATE("--help", "--version", "run --help", "compare --version", "keys",
+                                     "check good.toml");
+  const Outcome outcome = call(folder, words);
+  CAPTURE(words);
+  CHECK(outcome.status == 0);
+  CHECK_FALSE(outcome.said.empty());
+  CHECK(outcome.complained.empty());
+  CHECK_FALSE(std::filesystem::exists(folder / "results"));
+}
+
+TEST_CASE("a rod runs, is found again, and is only replaced when told so") {
+  const TemporaryFolder folder;
+  folder.write("quick.toml", quick_scene());
+  const Outcome first = call(folder, "run quick.toml");
+  CAPTURE(first.said, first.complained);
+  REQUIRE(first.status == 0);
+  for (const char* file : {"scene.toml", "summary.json", "run.log", "compare.csv", "rod/force.csv",
+                           "rod/rod.pvd", "rod/centerline/ebar_+030.000.csv",
+                           "rod/centerline/ebar_+028.000.csv", "rod/vtu/ebar_+028.000.vtu"})
+    CHECK(std::filesystem::exists(folder / "results/quick" / file));
+  CHECK_FALSE(std::filesystem::exists(folder / "results/quick/solid"));
+  const auto force = text_of(folder / "results/quick/rod/force.csv");
+  CHECK(lines(first.said) > lines(force) - 1);  // a status line per step off a terminal
+
+  const Outcome again = call(folder, "run quick.toml");
+  CHECK(again.status == 0);
+  CHECK(again.said.find("finished result") != std::string::npos);
+  CHECK(text_of(folder / "results/quick/rod/force.csv") == force);
+
+  CHECK(call(folder, "run quick.toml --set path.max_step=1").status == 2);
+  CHECK(call(folder, "run quick.toml --set path.max_step=1 --resume").status == 2);
+  const Outcome forced = call(folder, "run quick.toml --set path.max_step=1 --force --quiet");
+  CHECK(forced.status == 0);
+  CHECK(forced.said.empty());
+  CHECK(lines(text_of(folder / "results/quick/rod/force.csv")) < lines(force));
+
+  const Outcome compared = call(folder, "compare results/quick results/quick/rod/force.csv --out c");
+  CHECK(compared.status == 0);
+  CHECK(std::filesystem::exists(folder / "c/compare.csv"));
+}
+
+TEST_CASE("a folder that cannot be made ends with 3") {
+  const TemporaryFolder folder;
+  folder.write("quick.toml", quick_scene());
+  const Outcome outcome = call(folder, "run quick.toml --out /proc/bight");
+  CHECK(outcome.status == 3);
+  CHECK(lines(outcome.complained) == 1);
+}
+
+TEST_CASE("an interrupted run ends with 130 and leaves whole files") {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "slow.toml", "fidelities = [\"rod\"]\n" + small_scene + "max_step = 0.002\n");
+  const std::string out = folder / "out";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(BIGHT_PROGRAM, "bight", "run", scene.c_str(), "--out", out.c_str(), "--quiet", nullptr);
+    _exit(127);
+  }
+  while (text_of(out + "/rod/force.csv").find("\n30,") == std::string::npos &&
+         waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(10000);
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 130);
+  const auto table = bight::coupling::read_table(out + "/rod/force.csv");
+  CHECK(table.rows.size() < 1000);
+  CHECK(text_of(out + "/summary.json").find("\"interrupted\"") != std::string::npos);
+}

@@ -1,0 +1,53 @@
+#include "coupling/results_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include "coupling/errors.h"
+#include "temporary_folder.h"
+
+using namespace bight::coupling;
+
+namespace {
+
+const std::string finished = R"({"status": "finished"})";
+
+}  // namespace
+
+TEST_CASE("an absent or empty folder is fresh") {
+  const TemporaryFolder folder;
+  CHECK(take_folder(folder.path(), {}, false, false) == FolderState::fresh);
+  CHECK(take_folder(folder / "absent", {}, true, false) == FolderState::fresh);
+}
+
+TEST_CASE("the finished result of the very same scene is found again") {
+  const TemporaryFolder folder;
+  Scene scene;
+  scene.text = "same";
+  folder.write("scene.toml", "same");
+  CHECK_THROWS_AS(take_folder(folder.path(), scene, false, false), InputError);
+  folder.write("summary.json", R"({"status": "gave up"})");
+  CHECK_THROWS_AS(take_folder(folder.path(), scene, false, false), InputError);
+  folder.write("summary.json", finished);
+  CHECK(take_folder(folder.path(), scene, false, false) == FolderState::finished);
+  CHECK(take_folder(folder.path(), scene, true, false) == FolderState::finished);
+  scene.text = "other";
+  CHECK_THROWS_AS(take_folder(folder.path(), scene, false, false), InputError);
+}
+
+TEST_CASE("resuming without a checkpoint is refused") {
+  const TemporaryFolder folder;
+  folder.write("run.log", "");
+  CHECK_THROWS_WITH(take_folder(folder.path(), {}, true, false), Catch::Contains("no checkpoint"));
+}
+
+TEST_CASE("starting over clears what bight writes and leaves the rest") {
+  const TemporaryFolder folder;
+  for (const char* name : {"scene.toml", "summary.json", "run.log", "notes.txt"}) folder.write(name, "");
+  std::filesystem::create_directories(folder / "rod/centerline");
+  folder.write("rod/force.csv", "");
+  CHECK(take_folder(folder.path(), {}, false, true) == FolderState::fresh);
+  CHECK(std::filesystem::exists(folder / "notes.txt"));
+  CHECK_FALSE(std::filesystem::exists(folder / "summary.json"));
+  CHECK_FALSE(std::filesystem::exists(folder / "rod/force.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "rod/centerline"));
+}

@@ -1,0 +1,141 @@
+#include "coupling/scene.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "coupling/errors.h"
+#include "coupling/keys.h"
+#include "small_scene.h"
+#include "temporary_folder.h"
+
+using namespace bight::coupling;
+
+namespace {
+
+std::string complaint(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+  const TemporaryFolder folder;
+  try {
+    read_scene(folder.write("scene.toml", scene), overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+}  // namespace
+
+TEST_CASE("a scene of four tables is complete") {
+  const TemporaryFolder folder;
+  const Scene scene = read_scene(folder.write("knot.toml", small_scene), {});
+  CHECK(scene.name == "knot");
+  CHECK(scene.slenderness() == Approx(42.1687).epsilon(1e-5));
+  CHECK(scene.youngs_modulus == 1.25e6);
+  CHECK(scene.segments == 337);
+  CHECK(scene.bulk_to_shear == 1000);
+  CHECK(scene.knot == "overhand");
+  CHECK(scene.finish_turns);
+  CHECK_FALSE(scene.twist);
+  CHECK(scene.seed_ebar == 30);
+  CHECK(scene.path.record == std::vector<double>{30, 20});
+}
+
+TEST_CASE("the filled-in scene reads back to itself") {
+  const TemporaryFolder folder;
+  const auto overrides = GENERATE(std::vector<std::string>{},
+                                  std::vector<std::string>{"material.poissons_ratio=0.3",
+                                                           "title=a \"quoted\" \\ title",
+                                                           "rod.length=1.1 ft",
+                                                           "path.record=[29.1, 21]"});
+  const Scene scene = read_scene(folder.write("knot.toml", small_scene), overrides);
+  const Scene again = read_scene(folder.write("again.toml", scene.text), {});
+  CHECK(again.text == scene.text);
+  CHECK(again.length == scene.length);
+  CHECK(again.title == scene.title);
+  for (const Key& key : all_keys()) {
+    const std::string name(key.path.substr(key.path.find('.') + 1));
+    if (key.path != "knot.centerline") CHECK(scene.text.find(name + " = ") != std::string::npos);
+  }
+}
+
+TEST_CASE("an override takes the same way as the file") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("knot.toml", small_scene);
+  const Scene scene = read_scene(
+      file, {"rod.diameter=8 mm", "fidelities=rod", "path.record=25", "rod1d.segments=100"});
+  CHECK(scene.diameter == Approx(0.008));
+  CHECK(scene.rod);
+  CHECK_FALSE(scene.solid);
+  CHECK(scene.path.record == std::vector<double>{25});
+  CHECK(scene.segments == 100);
+  CHECK(complaint(small_scene, {"rod.diamter=1 mm"}) ==
+        "--set: rod.diamter: unknown key; nearest is rod.diameter");
+  CHECK(complaint(small_scene, {"rod.diameter"}) == "--set rod.diameter: write --set key.path=value");
+}
+
+TEST_CASE("a bad scene is refused with a line that names place, key, value and what is allowed") {
+  struct Bad {
+    std::string scene;
+    std::vector<std::string> words;
+  };
+  const auto bad = GENERATE(values<Bad>({
+      {small_scene_with("diameter =", "diamter ="), {":3", "rod.diamter", "nearest is rod.diameter"}},
+      {small_scene_with("8.3 mm", "8.3 kg"), {":3", "rod.diameter", "8.3 kg", "unit of m"}},
+      {small_scene_with("8.3 mm", "-8.3 mm"), {":3", "rod.diameter", "-8.3 mm", "(0, inf)"}},
+      {small_scene_with("\"8.3 mm\"", "nan"), {":3", "rod.diameter", "nan"}},
+      {small_scene_with("\"8.3 mm\"", "true"), {":3", "rod.diameter", "true"}},
+      {small_scene_with("[path]", "poissons_ratio = 2\n[path]"), {":6", "poissons_ratio", "[0, 0.5]"}},
+      {small_scene_with("[path]", "model = \"steel\"\n[path]"), {"steel", "neo-hookean"}},
+      {small_scene_with("[30, 20]", "[40, 20]"), {":7", "path.ebar", "40", "at most 38.17"}},
+      {small_scene_with("[30, 20]", "[30, -50]"), {":7", "path.ebar", "-50"}},
+      {small_scene_with("[30, 20]", "[30, nan]"), {":7", "path.ebar", "nan"}},
+      {small_scene_with("[30, 20]", "[]"), {":7", "path.ebar"}},
+      {small_scene_with("[30, 20]", "[30, 20]\nrecord = [10]"), {":8", "path.record", "20 to 30"}},
+      {small_scene + "[solid3d]\nseed_ebar = 5\n", {":9", "solid3d.seed_ebar", "20 to 30"}},
+      {small_scene_with("350 mm", "80 mm"), {"rod.length", "too short"}},
+      {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
+      {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "yet", "contact"}},
+      {small_scene + "[effects]\ngravity = true\n", {":9", "effects.gravity", "no such effect"}},
+      {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},
+      {small_scene + "[knot]\ncenterline = \"no.csv\"\n", {":9", "knot.centerline", "no such file"}},
+      {small_scene + "[rod1d]\nsegments = 10.5\n", {":9", "rod1d.segments", "whole number"}},
+      {"title = [", {":1"}},
+      {"", {"empty"}},
+      {std::string("\x7f" "ELF\0\1\2", 7), {"binary"}},
+  }));
+  const std::string said = complaint(bad.scene);
+  CAPTURE(bad.scene, said);
+  CHECK(std::ranges::count(said, '\n') == 0);
+  CHECK(said.find("scene.toml") != said.npos);
+  for (const std::string& word : bad.words) {
+    CAPTURE(word);
+    CHECK(said.find(word) != said.npos);
+  }
+}
+
+TEST_CASE("all problems are reported at once") {
+  const std::string said = complaint(
+      "[rod]\nlength = 0.35\ndiamter = \"8.3 mm\"\n[material]\nyoungs_modulus = \"1 m\"\n", {"x=1"});
+  CHECK(std::ranges::count(said, '\n') == 3);  // diamter, modulus, x, no path
+}
+
+TEST_CASE("hardly meant values are warned about") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("knot.toml", small_scene);
+  CHECK(read_scene(file, {}).warnings.empty());
+  const Scene scene = read_scene(file, {"material.density=1.160 kg/m^3"});
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK(scene.warnings[0].find("slip") != std::string::npos);
+}
+
+TEST_CASE("a path is parted where it first comes by the seed") {
+  bight::Path path;
+  path.waypoints = {30, 5, 25};
+  path.record = {30, 20, 5};
+  CHECK(path_to_seed(path, 20).waypoints == std::vector<double>{30, 20});
+  CHECK(path_from_seed(path, 20).waypoints == std::vector<double>{20, 5, 25});
+  CHECK(path_from_seed(path, 20).record == std::vector<double>{20, 5});
+  CHECK(path_to_seed(path, 30).waypoints == std::vector<double>{30});
+  CHECK(path_from_seed(path, 30).waypoints == std::vector<double>{30, 5, 25});
+  CHECK(path_from_seed(path, 5).waypoints == std::vector<double>{5, 25});
+}
