@@ -14,7 +14,7 @@ namespace bight::rod1d {
 namespace {
 
 /// Accepted states through which the next one is extrapolated.
-constexpr size_t history = 3;
+constexpr size_t history = 4;
 /// Share of the allowed overlap that the contact stiffness aims at.
 constexpr double aimed_share = 0.6;
 
@@ -66,24 +66,25 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
 
 RodModel::~RodModel() = default;
 
-/// A round rod without friction or twist may turn about the axis as a whole at no cost. One
-/// coordinate of the node farthest from the axis, nearly across its radius, is held against that;
-/// its reaction is zero, as a rotation does no work.
+/// Two motions cost a round rod without friction nothing, or next to nothing, and would be left to
+/// round-off: turning about the axis as a whole, and sliding of the knot along the rod (its energy
+/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). One node, far from the axis,
+/// is held across its radius against the first and, if the rod is knotted, along the axis against
+/// the second. A turn does no work, so that reaction is zero; the other one is what the ends' tensions
+/// differ by: zero for a knot that is symmetric about its middle node.
 void RodModel::choose_pin(const Vector& x) {
-  const auto radius = [&](int node) { return x.segment<2>(Rod::position(node)).norm(); };
-  if (pin_ >= 0) {
-    const int node = pin_ / 3;
-    const double lever = std::abs(x[Rod::position(node) + (pin_ % 3 == 0 ? 1 : 0)]);
-    if (lever > 0.6 * radius(node) && radius(node) > 0.5) return;
-  }
+  const auto across = [&](int node) { return x.segment<2>(Rod::position(node)).cwiseAbs(); };
+  if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
+      across(pin_.node).norm() > 0.5)
+    return;
+  std::vector<bool> held = held_coordinates(rod_, false, parameters_.finish_turns);
   int farthest = 0;
   for (int i = 0; i < rod_.nodes(); ++i)
-    if (radius(i) > radius(farthest)) farthest = i;
-  std::vector<bool> held = held_coordinates(rod_, false, parameters_.finish_turns);
-  if (radius(farthest) > 0) {
-    const Vector2 at = x.segment<2>(Rod::position(farthest));
-    pin_ = Rod::position(farthest) + (std::abs(at.x()) > std::abs(at.y()) ? 1 : 0);
-    held[pin_] = true;
+    if (across(i).norm() > across(farthest).norm() + 1e-9) farthest = i;
+  if (across(farthest).norm() > 0) {
+    pin_ = {farthest, across(farthest).x() > across(farthest).y() ? 1 : 0};
+    held[Rod::position(farthest) + pin_.axis] = true;
+    held[Rod::position(farthest) + 2] = determinant_ != 1;
   }
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
@@ -134,10 +135,10 @@ Vector RodModel::predict(double ebar) const {
 NewtonResult RodModel::solve_once(const Vector& guess) {
   NewtonOptions options;
   options.max_iterations = tension_ > 0 ? 60 : 500;
-  options.energy_tolerance = 1e-9 * force_scale_;
-  options.force_tolerance = 1e-6 * force_scale_;
+  options.energy_tolerance = 1e-10 * force_scale_;
+  options.force_tolerance = 1e-7 * force_scale_;
   options.largest_move = 1;
-  options.bound.first_rise = 0;
+  options.bound.first_rise = 1e-8 * force_scale_;  // round-off of the energy
   return newton(equations_->system, guess, options);
 }
 
@@ -172,6 +173,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   if (accepted_.size() > history) accepted_.erase(accepted_.begin());
 
   const GripForces forces = grip_forces(rod_, result.gradient);
+  const double tightening = tension_ > 0 ? std::clamp(forces.tension() / tension_, 0.5, 2.0) : 1.0;
   tension_ = forces.tension();
   force_scale_ = std::max(std::abs(tension_), 0.1 * loose_tension(rod_, ebar));
   energy_by_effect_ = equations_->assembler.energy_by_effect();
@@ -185,8 +187,10 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     row.max_penetration = max_penetration(*effects_.contact);
     row.contact_pairs = effects_.contact->stencils();
     const double aimed = aimed_share * parameters_.penetration;
-    stiffness_ = effects_.contact->law().stiffness *
-                 std::clamp(row.max_penetration / aimed, 0.7, 1.5);
+    // Mostly with the tension, which is smooth along the path: the largest overlap is not, as it
+    // depends on where the samples lie, and the extrapolation would feel it.
+    stiffness_ = effects_.contact->law().stiffness * tightening *
+                 std::pow(std::clamp(row.max_penetration / aimed, 0.25, 4.0), 0.1);
   }
   choose_pin(result.x);
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();

@@ -48,7 +48,10 @@ class RodModel final : public PathModel {
   int determinant_;
   RodEffects effects_;
   std::unique_ptr<Equations> equations_;
-  int pin_ = -1;                     ///< coordinate held against rotation about the axis, or -1
+  struct Pin {
+    int node = -1, axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius
+  };
+  Pin pin_;
   double stiffness_ = 0;             ///< of contact, where the next solve begins
   double force_scale_;               ///< tension expected [E D^2]
   std::vector<Accepted> accepted_;   ///< the newest few, newest last

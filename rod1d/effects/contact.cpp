@@ -8,7 +8,7 @@ namespace bight::rod1d {
 namespace {
 
 /// Largest distance between samples along the rod [D].
-constexpr double sample_spacing = 0.125;
+constexpr double sample_spacing = 0.045;
 /// Parts of the rod that are nearer than this along it are no pair [D]. A tube that is bent as much
 /// as it can be (curvature 2/D) meets itself after pi/2 D of arc, so nothing is missed; and since
 /// only local minima of the distance count, a bend alone is no contact.
