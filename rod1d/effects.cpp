@@ -5,6 +5,13 @@
 
 namespace bight::rod1d {
 
+namespace {
+
+/// Of the quadrature points of contact [D].
+constexpr double contact_spacing = 0.03;
+
+}  // namespace
+
 RodEffects make_effects(const Rod& rod, const RodParameters& parameters) {
   RodEffects effects;
   const auto add = [&](auto effect) {
@@ -14,7 +21,7 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters) {
   };
   add(std::make_unique<Stretch>(rod));
   add(std::make_unique<Bend>(rod));
-  if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod));
+  if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
   return effects;
 }
 

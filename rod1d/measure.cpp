@@ -32,17 +32,15 @@ std::vector<double> stretch(const Rod& rod, const Vector& x) {
   return ratio;
 }
 
-std::vector<double> contact_force(const Rod& rod, const Contact& contact) {
+std::vector<double> contact_force(const Rod& rod, const std::vector<ContactPoint>& points) {
   std::vector<double> force(rod.nodes(), 0.0);
-  for (const ContactPoint& at : contact.touching()) {
-    const double size = -at.weight * contact.law().slope(at.gap);
-    const auto share = [&](int segment, double where) {
-      const double u = where / rod.rest_length[segment];
-      force[segment] += (1 - u) * size;
-      force[segment + 1] += u * size;
-    };
-    share(at.segment, at.at);
-    share(at.facing, at.facing_at);
+  const auto share = [&](int segment, double u, double size) {
+    force[segment] += (1 - u) * size;
+    force[segment + 1] += u * size;
+  };
+  for (const ContactPoint& at : points) {
+    share(at.segment_a, at.u_a, at.force);
+    share(at.segment_b, at.u_b, at.force);
   }
   for (int i = 0; i < rod.nodes(); ++i) {
     const double before = i > 0 ? rod.rest_length[i - 1] : 0;
@@ -52,9 +50,9 @@ std::vector<double> contact_force(const Rod& rod, const Contact& contact) {
   return force;
 }
 
-double max_penetration(const Contact& contact) {
+double max_penetration(const std::vector<ContactPoint>& points) {
   double largest = 0;
-  for (const ContactPoint& at : contact.touching()) largest = std::max(largest, -at.gap);
+  for (const ContactPoint& at : points) largest = std::max(largest, -at.gap);
   return largest;
 }
 

@@ -153,7 +153,7 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
     result = solve_once(pass == 0 ? guess : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
-    const double overlap = max_penetration(*effects_.contact);
+    const double overlap = max_penetration(effects_.contact->points(result.x));
     const bool first = tension_ == 0;
     if (overlap <= parameters_.penetration && (!first || overlap > 0.3 * parameters_.penetration))
       break;
@@ -184,8 +184,9 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   row.residual = result.residual / force_scale_;
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {
-    row.max_penetration = max_penetration(*effects_.contact);
-    row.contact_pairs = effects_.contact->stencils();
+    const std::vector<ContactPoint> points = effects_.contact->points(result.x);
+    row.max_penetration = max_penetration(points);
+    row.contact_pairs = static_cast<int>(points.size());
     const double aimed = aimed_share * parameters_.penetration;
     // Mostly with the tension, which is smooth along the path: the largest overlap is not, as it
     // depends on where the samples lie, and the extrapolation would feel it.
@@ -205,7 +206,7 @@ RodState RodModel::state() const {
   state.s = rod_.arc_length();
   state.curvature = curvature(rod_, now.x);
   state.stretch = stretch(rod_, now.x);
-  if (effects_.contact) state.contact_force = contact_force(rod_, *effects_.contact);
+  if (effects_.contact) state.contact_force = contact_force(rod_, effects_.contact->points(now.x));
   state.tension = tension_;
   state.writhe = writhe(state.nodes);
   state.determinant = knot_determinant(state.nodes);
