@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "rod1d/one_thread.h"
 #include "rod1d/overhand.h"
 #include "rod1d/rod_model.h"
 
@@ -44,6 +45,7 @@ PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObser
 
 RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) {
   check(parameters);
+  const OneThread one_thread;
   RodResult result;
   const auto began = std::chrono::steady_clock::now();
   RodModel model(parameters, start_of(parameters));
