@@ -14,7 +14,7 @@ constexpr double exclusion = 1.5;
 constexpr double search_gap = 0.8, search_slack = 0.2;
 constexpr double known_gap = search_gap - 2 * search_slack;
 /// Pairs nearer than this are given room in the Hessian's pattern [D].
-constexpr double pattern_gap = 0.05;
+constexpr double pattern_gap = 0.03;
 /// Gap below which no iteration may bring a pair [D].
 constexpr double deepest_gap = -0.15;
 
@@ -85,7 +85,7 @@ Contact::Contact(const Rod& rod, double spacing) : nodes_(rod.nodes()), arc_(rod
 }
 
 Contact::Pair Contact::pair(int a, int b) const {
-  Pair out{a, b, {}};
+  Pair out{a, b, 0, {}};
   for (int side = 0; side < 2; ++side)
     for (int k = 0; k < 4; ++k) {
       // A node beyond the end has no weight.
@@ -109,6 +109,17 @@ void Contact::element(const Vector& x, int i, Order order, ElementSlot& slot) co
   slot.set(contact_element(values, samples_[at.a], samples_[at.b], exclusion, law_, order), order);
 }
 
+double Contact::smallest_gap(const Vector& x, const Pair& at) const {
+  thread_local Points p, q;
+  Eigen::Matrix<double, 24, 1> values;
+  for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]];
+  place(samples_[at.a], values.data(), p), place(samples_[at.b], values.data() + 12, q);
+  double square = std::numeric_limits<double>::infinity();
+  for (const Vector3& here : p)
+    for (const Vector3& there : q) square = std::min(square, (here - there).squaredNorm());
+  return std::sqrt(square) - 1;
+}
+
 void Contact::refresh(const Vector& x) {
   if (searched_.size() == 0 || largest_move(x - searched_) > search_slack) {
     searched_ = x;
@@ -122,14 +133,18 @@ void Contact::refresh(const Vector& x) {
       // The curve leaves its chord by less than an eighth of its length.
       const double lengths = (node(a + 1) - node(a)).norm() + (node(b + 1) - node(b)).norm();
       const double apart = 0.5 * (node(a) + node(a + 1) - node(b) - node(b + 1)).norm();
-      const double gap = apart - 0.625 * lengths - 1;
-      if (gap < 0.5 * law_.onset) touching_.push_back(pair(a, b));
-      if (gap < known_gap) near_.push_back(pair(a, b));
+      const double bound = apart - 0.625 * lengths - 1;
+      if (bound > known_gap) continue;
+      Pair found = pair(a, b);
+      found.gap = bound > pattern_gap ? bound : smallest_gap(x, found);
+      near_.push_back(found);
+      if (found.gap < 0.5 * law_.onset) touching_.push_back(found);
     }
 }
 
 void Contact::couplings(const std::function<void(std::span<const int>)>& couple) const {
-  for (const Pair& at : near_) couple(at.coordinates);
+  for (const Pair& at : near_)
+    if (at.gap < pattern_gap) couple(at.coordinates);
 }
 
 double Contact::longest_step(const Vector& x, const Vector& dx) const {

@@ -64,9 +64,11 @@ class Contact final : public Effect {
  private:
   struct Pair {
     int a, b;
+    double gap;  ///< between quadrature points, or less
     std::array<int, 24> coordinates;
   };
   Pair pair(int a, int b) const;
+  double smallest_gap(const Vector& x, const Pair& at) const;
   double largest_move(const Vector& dx) const;
 
   int nodes_;
