@@ -29,9 +29,10 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient) 
   return system.assembler.assemble(x, order, gradient);
 }
 
-/// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite; elsewhere it
-/// begins where the last one was, or where the step would stay within reach, and grows until the
-/// factorisation succeeds. False when no shift in range does.
+/// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite. Elsewhere it
+/// begins at a tenth of the last one, but no higher than in proportion to the residual, and grows
+/// until the factorisation succeeds: along a solve it decays to zero. Dropping it at once lets the
+/// soft modes run far off. False when no shift in range does.
 bool direction(System& system, const Vector& g, double reach, NewtonResult& result, Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
   if (system.analysed_pattern != system.assembler.pattern_version()) {
@@ -45,9 +46,11 @@ bool direction(System& system, const Vector& g, double reach, NewtonResult& resu
     const auto diagonal = std::lower_bound(begin, H.row.begin() + H.column_start[j + 1], j);
     largest = std::max(largest, std::abs(H.value[static_cast<size_t>(diagonal - H.row.begin())]));
   }
-  const double first = std::clamp(g.cwiseAbs().maxCoeff() / reach, 1e-10 * largest, 1e-2 * largest);
-  double shift = system.shift < 1e-10 * largest ? 0 : 0.25 * system.shift;
-  for (; shift <= 10 * largest; shift = std::max(first, 4 * shift)) {
+  const double first =
+      std::clamp(0.1 * g.cwiseAbs().maxCoeff() / reach, 1e-11 * largest, 1e-4 * largest);
+  double shift = std::min(0.1 * system.shift, first);
+  if (shift < 1e-10 * largest) shift = 0;
+  for (; shift <= 10 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;
     Timed timed(system, "factorisation");
     if (!system.cholesky.factor(H, shift)) continue;

@@ -31,10 +31,11 @@ class SolidPath : public PathModel {
       : mesh_(mesh),
         parameters_(parameters),
         grip_{parameters.finish_turns},
+        pins_(pins(mesh, start, parameters)),
         internal_begin_(grip_.coordinates(mesh)),
         effects_(make_effects(mesh, parameters, internal_begin_)),
-        unknowns_(grip_.unknowns(
-            mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()))),
+        unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()),
+                                 pins_)),
         assembler_(unknowns_, effects_.list),
         system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
         tension_(parameters.expected_tension) {
@@ -58,6 +59,9 @@ class SolidPath : public PathModel {
       x = follow_grip(ebar);
     hold_grips(x);
     grip_.move(mesh_, ebar, x);
+    // The middle of a symmetric knot moves half as far as the finish.
+    if (!pins_.empty()) x[pins_[0]] = last.x[pins_[0]] - 0.5 * de;
+    if (pins_.size() > 1) x[pins_[1]] = last.x[pins_[1]];
     return x;
   }
 
@@ -132,6 +136,27 @@ class SolidPath : public PathModel {
 
   const Vector& newest() const { return history_.back().x; }
 
+  /// Without friction the knot may slide along the rod and, where the finish turns, revolve about
+  /// the pulling axis (the rod rolls the other way) at no cost but what the mesh is uneven by. Both
+  /// are stopped at the centre point that is farthest from the axis: one coordinate across its
+  /// radius, and z. A choice of place and angle among equals.
+  static std::vector<int> pins(const Mesh& mesh, const std::vector<Vector3>& start,
+                               const SolidParameters& parameters) {
+    const Vector3& axis = start[mesh.node(0, mesh.section.centre[0])];
+    double farthest = 0.1;  // a straight rod needs no pin [D]
+    std::vector<int> coordinates;
+    for (int k = 1; k + 1 < mesh.layers(); ++k) {
+      const int node = mesh.node(k, mesh.section.centre[0]);
+      const Vector2 radius = (start[node] - axis).head<2>();
+      if (radius.norm() <= farthest) continue;
+      farthest = radius.norm();
+      coordinates = {3 * node + 2};
+      if (parameters.finish_turns)
+        coordinates.push_back(3 * node + (std::abs(radius.x()) > std::abs(radius.y()) ? 1 : 0));
+    }
+    return coordinates;
+  }
+
   /// Sections move rigidly through the exponential map, the turned finish about its axis.
   void advance(Vector& x, const Vector& dx) const {
     const Vector before = x;
@@ -147,6 +172,7 @@ class SolidPath : public PathModel {
   /// Held sections exactly as they were.
   void hold_grips(Vector& x) const { hold_grips(x, newest()); }
   void hold_grips(Vector& x, const Vector& as) const {
+    for (int pin : pins_) x[pin] = as[pin];
     x.head(3 * mesh_.points_per_layer()) = as.head(3 * mesh_.points_per_layer());
     const int last = 3 * mesh_.node(mesh_.layers() - 1, 0);
     if (!grip_.finish_turns)
@@ -161,6 +187,7 @@ class SolidPath : public PathModel {
     Vector moved = last.x, gradient;
     const double towards = de > 0 ? probe : -probe;
     grip_.move(mesh_, last.ebar + towards, moved);
+    if (!pins_.empty()) moved[pins_[0]] -= 0.5 * towards;
     assembler_.assemble(moved, Order::gradient, gradient);
     const Vector rate = (unknowns_.reduce(moved, gradient) -
                          unknowns_.reduce(last.x, last.gradient)) / towards;
@@ -173,6 +200,7 @@ class SolidPath : public PathModel {
   const Mesh& mesh_;
   const SolidParameters& parameters_;
   Grip grip_;
+  std::vector<int> pins_;
   int internal_begin_;
   SolidEffects effects_;
   Unknowns unknowns_;

@@ -14,7 +14,7 @@ namespace {
 constexpr double search_slack = 0.05;
 /// One iteration may close a gap down to this overlap, no further [D].
 constexpr double deepest_overlap = 0.08;
-/// Samples this near are given their place in the pattern of the Hessian [D].
+/// Samples this near to touching have their place in the pattern of the Hessian [D].
 constexpr double pattern_margin = 0.03;
 /// Normals of facing surfaces must oppose each other at least this much.
 constexpr double opposing = -0.1;
@@ -190,7 +190,7 @@ void Contact::couplings(const std::function<void(std::span<const int>)>& couple)
   // A facing point may wander to a neighbouring patch before the pattern is built again.
   std::vector<std::pair<int, int>> pairs;
   for (const Sample& sample : samples_) {
-    if (!sample.faces || sample.gap > pattern_margin) continue;
+    if (!sample.faces || sample.gap > 0.5 * law_.onset + pattern_margin) continue;
     const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)

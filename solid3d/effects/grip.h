@@ -17,7 +17,8 @@ struct Grip {
   int coordinates(const Mesh& mesh) const { return 3 * mesh.nodes() + (finish_turns ? 1 : 0); }
   int angle(const Mesh& mesh) const { return finish_turns ? 3 * mesh.nodes() : -1; }
 
-  Unknowns unknowns(const Mesh& mesh, int with_internal) const {
+  /// `pinned`: further coordinates to hold.
+  Unknowns unknowns(const Mesh& mesh, int with_internal, const std::vector<int>& pinned = {}) const {
     std::vector<int> blocks;
     std::vector<bool> held(static_cast<size_t>(with_internal), false);
     for (int n = 0; n < mesh.nodes(); ++n) blocks.push_back(3 * n);
@@ -25,6 +26,7 @@ struct Grip {
       for (int i = 3 * mesh.node(layer, 0); i < 3 * mesh.node(layer + 1, 0); ++i) held[i] = true;
     };
     hold(0);
+    for (int c : pinned) held[c] = true;
     std::vector<Turn> turns;
     if (finish_turns) {
       blocks.push_back(angle(mesh));
