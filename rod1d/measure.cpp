@@ -61,12 +61,15 @@ namespace {
 /// Solid angle over 4 pi that segment 3-4 spans on segment 1-2, with its sign.
 double gauss_exact(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& p4) {
   const Vector3 r13 = p3 - p1, r14 = p4 - p1, r23 = p3 - p2, r24 = p4 - p2;
+  const Vector3 across = (p4 - p3).cross(p2 - p1);
+  const double volume = across.dot(r13);
+  // In one plane, as in a straight tail: no solid angle, and normals that are round-off.
+  if (std::abs(volume) < 1e-12 * (p4 - p3).norm() * (p2 - p1).norm() * r13.norm()) return 0;
   const Vector3 n[4] = {r13.cross(r14).stableNormalized(), r14.cross(r24).stableNormalized(),
                         r24.cross(r23).stableNormalized(), r23.cross(r13).stableNormalized()};
   double angle = 0;
   for (int k = 0; k < 4; ++k) angle += std::asin(std::clamp(n[k].dot(n[(k + 1) % 4]), -1.0, 1.0));
-  const double sign = (p4 - p3).cross(p2 - p1).dot(r13);
-  return sign > 0 ? angle : sign < 0 ? -angle : 0.0;
+  return volume > 0 ? angle : -angle;
 }
 
 }  // namespace

@@ -13,8 +13,10 @@ namespace bight::rod1d {
 
 namespace {
 
-/// Accepted states through which the next one is extrapolated.
-constexpr size_t history = 4;
+/// Accepted states through which the next one is extrapolated, at most, and those kept for it.
+constexpr size_t extrapolated = 4, kept = 12;
+/// Steps in ebar below this are no steps.
+constexpr double same_ebar = 1e-9;
 /// Share of the allowed overlap that the contact stiffness aims at.
 constexpr double aimed_share = 0.6;
 
@@ -115,17 +117,27 @@ Vector RodModel::tangent(double ebar) const {
 }
 
 Vector RodModel::predict(double ebar) const {
-  Vector x = accepted_.back().x;
-  if (accepted_.size() == 1 && tension_ > 0 && std::abs(ebar - accepted_.back().ebar) > 1e-9) {
-    x = tangent(ebar);
-  } else if (accepted_.size() > 1) {
-    // Lagrange's polynomial in ebar.
-    x.setZero();
-    for (const Accepted& a : accepted_) {
-      double weight = 1;
-      for (const Accepted& b : accepted_)
-        if (&a != &b) weight *= (ebar - b.ebar) / (a.ebar - b.ebar);
-      x += weight * a.x;
+  const Accepted& now = accepted_.back();
+  // States much closer to each other than to `ebar` would only carry their errors over.
+  std::vector<const Accepted*> through{&now};
+  for (auto it = accepted_.rbegin(); it != accepted_.rend() && through.size() < extrapolated; ++it)
+    if (std::all_of(through.begin(), through.end(), [&](const Accepted* other) {
+          return std::abs(it->ebar - other->ebar) > 0.7 * std::abs(ebar - now.ebar);
+        }))
+      through.push_back(&*it);
+
+  Vector x = now.x;
+  if (tension_ > 0 && std::abs(ebar - now.ebar) > same_ebar) {
+    if (through.size() == 1) {
+      x = tangent(ebar);
+    } else {  // Lagrange's polynomial in ebar
+      x.setZero();
+      for (const Accepted* a : through) {
+        double weight = 1;
+        for (const Accepted* b : through)
+          if (a != b) weight *= (ebar - b->ebar) / (a->ebar - b->ebar);
+        x += weight * a->x;
+      }
     }
   }
   place_grips(rod_, end_to_end(ebar), x);
@@ -168,9 +180,9 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
 }
 
 StepRow RodModel::accept(const NewtonResult& result, double ebar) {
-  if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < 1e-9) accepted_.pop_back();
+  if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
   accepted_.push_back({ebar, result.x});
-  if (accepted_.size() > history) accepted_.erase(accepted_.begin());
+  if (accepted_.size() > kept) accepted_.erase(accepted_.begin());
 
   const GripForces forces = grip_forces(rod_, result.gradient);
   const double tightening = tension_ > 0 ? std::clamp(forces.tension() / tension_, 0.5, 2.0) : 1.0;

@@ -1,0 +1,144 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "rod1d/effects.h"
+#include "rod1d/effects/bend.h"
+#include "rod1d/effects/stretch.h"
+#include "rod1d/overhand.h"
+#include "tests/derivatives.h"
+
+using namespace bight;
+using namespace bight::rod1d;
+
+namespace {
+
+/// Every effect that a rod can have, on the same rod.
+struct EveryEffect {
+  RodParameters parameters;
+  Rod rod;
+  RodEffects effects;
+  EveryEffect() {
+    parameters.segments = 170;
+    rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
+    effects = make_effects(rod, parameters);
+    // A wide onset, so that a difference step stays inside it.
+    effects.contact->set_law({0.3, 0.2});
+  }
+  int coordinates() const { return 3 * rod.nodes(); }
+};
+
+Vector straight(const Rod& rod) {
+  Vector x = Vector::Zero(3 * rod.nodes());
+  const auto s = rod.arc_length();
+  for (int i = 0; i < rod.nodes(); ++i) x[3 * i + 2] = s[i];
+  return x;
+}
+
+/// A loose overhand knot, drawn together in the plane across the axis until its braid touches.
+Vector knotted(const Rod& rod, double across) {
+  const Polyline line = overhand_start(42.17, 28, rod.segments());
+  Vector x(3 * rod.nodes());
+  for (int i = 0; i < rod.nodes(); ++i)
+    x.segment<3>(3 * i) = line[i].cwiseProduct(Vector3(across, across, 1));
+  return x;
+}
+
+Vector shaken(Vector x, double size) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  for (double& value : x) value += size * normal(generator);
+  return x;
+}
+
+struct State {
+  const char* name;
+  Vector x;
+};
+
+std::vector<State> states(const Rod& rod) {
+  return {{"rest", straight(rod)},
+          {"almost rest", shaken(straight(rod), 1e-8)},
+          {"generic", shaken(knotted(rod, 0.75), 0.01)},
+          {"just touching", knotted(rod, 0.93)}};
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of every effect of the rod converge with second order") {
+  EveryEffect every;
+  for (const State& state : states(every.rod))
+    for (const auto& effect : every.effects.list) {
+      INFO(state.name);
+      effect->refresh(state.x);
+      if (effect->name() == "contact" && std::string(state.name).find("rest") == std::string::npos)
+        CHECK(effect->stencils() > 0);
+      test::check_derivatives(*effect, state.x, every.coordinates());
+    }
+}
+
+TEST_CASE("a rigid motion changes no energy, and internal forces and torques balance") {
+  EveryEffect every;
+  const Matrix3 turn = Eigen::AngleAxisd(1.1, Vector3(1, -2, 0.4).normalized()).toRotationMatrix();
+  for (const State& state : states(every.rod))
+    for (const auto& effect : every.effects.list) {
+      INFO(state.name << ", " << effect->name());
+      Vector moved = state.x;
+      for (int i = 0; i < every.rod.nodes(); ++i)
+        moved.segment<3>(3 * i) = turn * state.x.segment<3>(3 * i) + Vector3(3, -1, 7);
+      const auto here = test::evaluate(*effect, state.x, Vector::Zero(state.x.size()));
+      const auto there = test::evaluate(*effect, moved, Vector::Zero(state.x.size()));
+      CHECK(there.energy == Approx(here.energy).epsilon(1e-9).margin(1e-20));
+      Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+      for (int i = 0; i < every.rod.nodes(); ++i) {
+        const Vector3 g = here.gradient.segment<3>(3 * i);
+        force += g;
+        torque += state.x.segment<3>(3 * i).cross(g);
+      }
+      const double scale = here.gradient.cwiseAbs().sum() + 1e-12;
+      CHECK(force.norm() < 1e-12 * scale);
+      CHECK(torque.norm() < 1e-11 * scale);
+    }
+}
+
+TEST_CASE("a folded or vanished segment is inadmissible") {
+  Eigen::Matrix<double, 9, 1> fold;
+  fold << 0, 0, 0, 0, 0, 1, 0, 0.01, 0;
+  CHECK(bend_element(fold, 1, 1).energy == inadmissible);
+  CHECK(stretch_element(Eigen::Matrix<double, 6, 1>::Zero(), 1, 1).energy == inadmissible);
+}
+
+TEST_CASE("crossed straight strands press with the integral of the law over the plane") {
+  // Two lines at right angles, a distance 1 + g apart: W = int law(sqrt((1+g)^2 + r^2) - 1) 2 pi r dr.
+  const ContactLaw law{2.0, 0.004};
+  const double gap = -0.0015;
+  SegmentSamples line;
+  line.spacing = 0.02;
+  const CurveSegment curve(0.5, 0.5, 0.5);
+  for (int k = 0; k < 25; ++k) {
+    line.value.push_back(curve.weights((k + 0.5) * 0.02).value);
+    line.arc.push_back(0);
+  }
+  SegmentSamples other = line;
+  other.arc.assign(25, 100);
+  Eigen::Matrix<double, 24, 1> x = Eigen::Matrix<double, 24, 1>::Zero();
+  for (int k = 0; k < 4; ++k) {
+    x[3 * k] = 0.5 * k - 0.753;
+    x[12 + 3 * k + 1] = 0.5 * k - 0.748;
+    x[12 + 3 * k + 2] = 1 + gap;
+  }
+  double energy = 0, force = 0;
+  const double dr = 1e-5;
+  for (double r = 0.5 * dr; r < 0.2; r += dr) {
+    const double distance = std::hypot(1 + gap, r), weight = 2 * M_PI * r * dr;
+    energy += weight * law.energy(distance - 1);
+    force -= weight * law.slope(distance - 1) * (1 + gap) / distance;
+  }
+  const auto element = contact_element(x, line, other, 1.5, law, Order::gradient);
+  CHECK(element.energy == Approx(energy).epsilon(0.005));
+  double upper = 0, lower = 0;
+  for (int k = 0; k < 4; ++k) lower += element.gradient[3 * k + 2], upper += element.gradient[12 + 3 * k + 2];
+  CHECK(-upper == Approx(force).epsilon(0.005));
+  CHECK(upper == Approx(-lower));
+}

@@ -1,0 +1,138 @@
+#include "rod1d/run_rod.h"
+
+#include <catch2/catch.hpp>
+#include <omp.h>
+
+#include <cmath>
+
+#include "mechanics/knot_type.h"
+#include "rod1d/overhand.h"
+#include "rod1d/polyline.h"
+#include "rod1d/rod_model.h"
+
+using namespace bight;
+using namespace bight::rod1d;
+
+namespace {
+
+RodParameters tight_overhand(int segments, std::vector<double> waypoints) {
+  RodParameters parameters;
+  parameters.segments = segments;
+  parameters.path.waypoints = std::move(waypoints);
+  return parameters;
+}
+
+double tbar(double tension) { return tension * 16 / M_PI; }
+
+}  // namespace
+
+TEST_CASE("the overhand knot tightens: T = -dE/debar, small overlap, ends in balance") {
+  RodParameters parameters = tight_overhand(170, {26, 12});
+  parameters.path.record = {20, 15, 12};
+  int steps_seen = 0, records_seen = 0;
+  RodObserver observer;
+  observer.on_step = [&](const StepRow&) { ++steps_seen; };
+  observer.on_record = [&](const RodState&) { ++records_seen; };
+  const RodResult result = run_rod(parameters, observer);
+
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  CHECK(steps_seen == static_cast<int>(result.steps.size()));
+  REQUIRE(records_seen == 3);
+  CHECK(result.effects == std::vector<std::string>{"stretch", "bend", "contact"});
+  for (size_t i = 0; i < result.steps.size(); ++i) {
+    const StepRow& row = result.steps[i];
+    INFO("ebar " << row.ebar);
+    CHECK(row.max_penetration < 0.002);
+    CHECK(row.contact_pairs > 0);
+    CHECK(row.residual < 1e-6);
+    CHECK(row.reaction_mismatch < 1e-6);
+    if (i == 0) continue;
+    const StepRow& before = result.steps[i - 1];
+    CHECK(row.tension > before.tension);
+    const double work = -(row.energy - before.energy) / (row.ebar - before.ebar);
+    // Logarithmic mean of T, which grows like a power of 1/ebar.
+    const double mean = (row.tension - before.tension) / std::log(row.tension / before.tension);
+    CHECK(work == Approx(mean).epsilon(0.005));
+  }
+  for (const RodState& state : result.states) {
+    INFO("ebar " << state.ebar);
+    CHECK(state.determinant == 3);
+    CHECK(state.nodes.size() == 171);
+    CHECK((state.nodes.back() - state.nodes.front()).norm() == Approx(42.17 - state.ebar));
+    CHECK(smallest_distance(state.nodes, 1.5) > 0.98);
+    CHECK(state.energy_by_effect.at("bend") > state.energy_by_effect.at("stretch"));
+  }
+  // The figure that later changes must keep, within the error of the discretisation.
+  CHECK(tbar(result.states[0].tension) == Approx(0.02565).epsilon(0.01));
+  CHECK(tbar(result.states[1].tension) == Approx(0.0534).epsilon(0.01));
+  CHECK(tbar(result.states[2].tension) == Approx(0.0944).epsilon(0.015));
+  // Above the law of the loose knot, pi^2/(2 ebar^2), which is its limit.
+  CHECK(tbar(result.states[0].tension) > M_PI * M_PI / 800);
+}
+
+TEST_CASE("half the segments give the same tension") {
+  double tension[2];
+  for (const int k : {0, 1}) {
+    const RodResult result = run_rod(tight_overhand(k ? 340 : 170, {26, 22}));
+    REQUIRE(result.outcome.status == PathStatus::finished);
+    tension[k] = result.steps.back().tension;
+  }
+  CHECK(tension[0] == Approx(tension[1]).epsilon(0.005));
+}
+
+TEST_CASE("tightening and loosening without friction retrace each other") {
+  const RodResult result = run_rod(tight_overhand(170, {26, 24, 26}));
+  INFO(result.outcome.reason);
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  CHECK(result.steps.back().ebar == 26);
+  CHECK(result.steps.back().tension == Approx(result.steps.front().tension).epsilon(2e-3));
+}
+
+TEST_CASE("a path that begins tighter than any loose knot is reached from a loose one") {
+  const RodResult result = run_rod(tight_overhand(170, {20, 19.5}));
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  CHECK(result.steps.front().ebar == 20);
+  CHECK(tbar(result.steps.front().tension) == Approx(0.02565).epsilon(0.01));
+}
+
+TEST_CASE("one and two threads give the same curve") {
+  std::vector<double> tension[2];
+  for (const int k : {0, 1}) {
+    omp_set_num_threads(k + 1);
+    for (const StepRow& row : run_rod(tight_overhand(100, {27, 25})).steps)
+      tension[k].push_back(row.tension);
+  }
+  omp_set_num_threads(omp_get_num_procs());
+  REQUIRE(tension[0].size() == tension[1].size());
+  for (size_t i = 0; i < tension[0].size(); ++i)
+    CHECK(tension[0][i] == Approx(tension[1][i]).epsilon(1e-9));
+}
+
+TEST_CASE("a state of another knot type is no solution") {
+  const RodParameters parameters = tight_overhand(60, {28, 26});
+  RodModel model(parameters, overhand_start(parameters.length, 28, parameters.segments));
+  CHECK(model.determinant() == 3);
+  // A guess from which the rod relaxes without a knot: an arc between the grips.
+  Vector guess = model.predict(28);
+  const int last = parameters.segments;
+  for (int i = 2; i + 1 < last; ++i) {
+    const double u = static_cast<double>(i) / last;
+    guess.segment<3>(3 * i) =
+        Vector3(13.5 * std::sin(M_PI * u), 0.3 * std::sin(2 * M_PI * u), 14.17 * (u - 0.5));
+  }
+  const NewtonResult result = model.solve(guess, 28);
+  CHECK_FALSE(result.ok());
+  CHECK(result.reason == "a strand has passed through another");
+}
+
+TEST_CASE("what the rod cannot do is refused in words") {
+  RodParameters parameters = tight_overhand(170, {30, 20});
+  parameters.friction = 0.3;
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("friction"));
+  parameters.friction = 0;
+  parameters.length = 20;
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("20 D"));
+  parameters.length = 42.17;
+  parameters.segments = 4;
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("segments"));
+}
