@@ -113,7 +113,7 @@ std::string comparison_text(const Comparison& comparison, size_t rows) {
       if (const auto d = row.difference(i)) text += fmt::format("  {:+11.2f}%", 100 * *d);
     text += '\n';
   }
-  for (size_t i = 1; i < comparison.names.size(); ++i) {
+  for (size_t i = 1; i < comparison.names.size() && !shared.empty(); ++i) {
     text += fmt::format("{} stays away from {} by", comparison.names[i], comparison.names[0]);
     for (const double level : {0.02, 0.05, 0.1}) {
       const auto parted = parted_at(comparison, i, level);

@@ -1,5 +1,7 @@
 #include "coupling/compare_centerlines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,6 +78,15 @@ std::vector<CurvatureDifference> compare_centerlines(const fs::path& a, const fs
   }
   std::ranges::sort(result, std::greater{}, &CurvatureDifference::ebar);
   return result;
+}
+
+std::string curvature_text(const std::string& a, const std::string& b,
+                           const std::vector<CurvatureDifference>& differences) {
+  std::string text;
+  for (const CurvatureDifference& d : differences)
+    text += fmt::format("{} {:.1f} % at ebar {:g}", text.empty() ? "" : ",", 100 * d.mean, d.ebar);
+  return text.empty() ? text
+                      : fmt::format("curvature of {} is off that of {} on average by{}\n", b, a, text);
 }
 
 void write_curvature(const fs::path& file, const std::vector<CurvatureDifference>& differences) {

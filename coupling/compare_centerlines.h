@@ -20,6 +20,10 @@ struct CurvatureDifference {
 std::vector<CurvatureDifference> compare_centerlines(const std::filesystem::path& a,
                                                      const std::filesystem::path& b);
 
+/// "b: kappa differs from a by ... at ebar ...", a line; empty without states in common.
+std::string curvature_text(const std::string& a, const std::string& b,
+                           const std::vector<CurvatureDifference>& differences);
+
 void write_curvature(const std::filesystem::path& file,
                      const std::vector<CurvatureDifference>& differences);
 

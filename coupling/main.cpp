@@ -19,16 +19,25 @@ namespace {
 
 ExitStatus compare_sources(const Command& command) {
   std::vector<ForceCurve> curves;
+  std::vector<std::pair<std::string, std::filesystem::path>> folders;
   double friction = 0;
   for (const auto& source : command.sources) {
     for (ForceCurve& curve : read_curves(source)) curves.push_back(std::move(curve));
+    for (auto& folder : fidelity_folders(source)) folders.push_back(std::move(folder));
     if (const auto of_source = read_friction(source)) friction = *of_source;
   }
   const Comparison comparison = compare(curves, friction);
   fmt::print("{}", comparison_text(comparison));
-  if (command.out.empty()) return done;
-  make_folder(command.out);
-  write_comparison(command.out / "compare.csv", comparison);
+  if (!command.out.empty()) {
+    make_folder(command.out);
+    write_comparison(command.out / "compare.csv", comparison);
+  }
+  for (size_t i = 1; i < folders.size(); ++i) {
+    const auto differences = compare_centerlines(folders[0].second, folders[i].second);
+    fmt::print("{}", curvature_text(folders[0].first, folders[i].first, differences));
+    if (!command.out.empty() && !differences.empty())
+      write_curvature(command.out / ("curvature_" + folders[i].first + ".csv"), differences);
+  }
   return done;
 }
 

@@ -42,6 +42,10 @@ void Progress::begin(const std::string& fidelity, const Path& path) {
   length_ = covered_ = 0;
   for (size_t i = 1; i < path.waypoints.size(); ++i)
     length_ += std::abs(path.waypoints[i] - path.waypoints[i - 1]);
+  if (terminal_ && !quiet_) {
+    fmt::print("\r\033[K{:<5} finding the first equilibrium", fidelity);
+    std::fflush(stdout);
+  }
 }
 
 void Progress::step(const StepRow& row) {

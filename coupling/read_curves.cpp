@@ -34,12 +34,18 @@ std::vector<ForceCurve> read_curves(const fs::path& source) {
   if (!fs::exists(source)) throw InputError(source.string() + ": there is no such file or folder");
   if (!fs::is_directory(source)) return {read_curve(source, source.stem().string())};
   std::vector<ForceCurve> curves;
-  for (const char* fidelity : {"rod", "solid"}) {
-    const fs::path file = source / fidelity / "force.csv";
-    if (fs::exists(file)) curves.push_back(read_curve(file, folder_name(source) + "_" + fidelity));
-  }
+  for (const auto& [name, folder] : fidelity_folders(source))
+    curves.push_back(read_curve(folder / "force.csv", name));
   if (curves.empty()) throw InputError(source.string() + ": no rod/force.csv and no solid/force.csv");
   return curves;
+}
+
+std::vector<std::pair<std::string, fs::path>> fidelity_folders(const fs::path& source) {
+  std::vector<std::pair<std::string, fs::path>> folders;
+  for (const char* fidelity : {"rod", "solid"})
+    if (fs::exists(source / fidelity / "force.csv"))
+      folders.emplace_back(folder_name(source) + "_" + fidelity, source / fidelity);
+  return folders;
 }
 
 std::optional<double> read_friction(const fs::path& source) {

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/force_curve.h"
@@ -11,6 +13,10 @@ namespace bight::coupling {
 /// The force curves of a results folder (rod, solid), or the one of a measured CSV file with columns
 /// ebar and force_normalised. Throws InputError when there is none.
 std::vector<ForceCurve> read_curves(const std::filesystem::path& source);
+
+/// Folders with centerline files in a results folder, by the names that their force curves have.
+std::vector<std::pair<std::string, std::filesystem::path>> fidelity_folders(
+    const std::filesystem::path& source);
 
 /// Coulomb coefficient of a results folder; nothing for a measured file.
 std::optional<double> read_friction(const std::filesystem::path& source);

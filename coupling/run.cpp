@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include "coupling/compare.h"
+#include "coupling/compare_centerlines.h"
 #include "coupling/recorder.h"
 #include "coupling/results_folder.h"
 #include "coupling/sweep.h"
@@ -41,7 +42,9 @@ Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recor
   if (report.solid) curves.push_back(curve("solid", report.solid->steps));
   const Comparison comparison = compare(curves, scene.friction);
   write_comparison(recorder.folder() / "compare.csv", comparison);
-  recorder.progress.say(comparison_text(comparison));
+  recorder.progress.say(comparison_text(comparison) +
+                        curvature_text("rod", "solid", compare_centerlines(recorder.folder() / "rod",
+                                                                           recorder.folder() / "solid")));
   return comparison;
 }
 

@@ -61,7 +61,11 @@ double parse_quantity(std::string_view text, const std::string& unit) {
   if (!ut_are_convertible(from.get(), to.get())) throw refuse("is of another kind");
   const std::unique_ptr<cv_converter, decltype(&cv_free)> converter(
       ut_get_converter(from.get(), to.get()), &cv_free);
-  return ut_compare(from.get(), to.get()) == 0 ? value : cv_convert_double(converter.get(), value);
+  // mm -> m divides by 1000 rather than multiply by 0.001: "350 mm" is the same double as 0.35.
+  const double factor = cv_convert_double(converter.get(), 1), inverse = std::round(1 / factor);
+  const bool proportional = cv_convert_double(converter.get(), 0) == 0;
+  if (proportional && factor < 1 && std::abs(inverse * factor - 1) < 1e-12) return value / inverse;
+  return factor == 1 && proportional ? value : cv_convert_double(converter.get(), value);
 }
 
 }  // namespace bight::coupling

@@ -17,6 +17,8 @@ TEST_CASE("quantities are read with their unit") {
 TEST_CASE("a quantity in the unit asked for keeps its last digit") {
   CHECK(parse_quantity("0.0083 m", "m") == 0.0083);
   CHECK(parse_quantity("1160.1 kg/m^3", "kg/m^3") == 1160.1);
+  CHECK(parse_quantity("350 mm", "m") == 0.35);
+  CHECK(parse_quantity("1.25 MPa", "Pa") == 1.25e6);
 }
 
 TEST_CASE("what is no quantity is refused") {
