@@ -41,11 +41,15 @@ class Check {
     const double lowest = scene_.slenderness() * (1 - largest_stretch);
     for (const double ebar : scene_.path.waypoints) {
       if (ebar > highest)
-        refuse_ebar(fmt::format("{} is more than a rod of L0 = {:.4g} D holds with straight "
-                                        "tails; at most {:.4g}", ebar, scene_.slenderness(), highest));
+        refuse_ebar(
+            fmt::format("{} is more than a rod of L0 = {:.4g} D holds with straight "
+                        "tails; at most {:.4g}",
+                        ebar, scene_.slenderness(), highest));
       if (ebar < lowest)
-        refuse_ebar(fmt::format("{} stretches the rod to more than twice its length; at "
-                                        "least {:.4g}", ebar, lowest));
+        refuse_ebar(
+            fmt::format("{} stretches the rod to more than twice its length; at "
+                        "least {:.4g}",
+                        ebar, lowest));
     }
     for (const double ebar : scene_.path.record) on_path("path.record", ebar);
     if (scene_.solid) on_path("solid3d.seed_ebar", scene_.seed_ebar);
@@ -64,22 +68,23 @@ class Check {
     const double nu = scene_.poissons_ratio;
     const double of_nu = 2 * (1 + nu) / (3 * (1 - 2 * nu));
     if (nu < 0.5 && std::abs(scene_.bulk_to_shear - of_nu) > 1e-9 * of_nu)
-      refuse("material.bulk_to_shear", fmt::format("only free when poissons_ratio is 0.5; {} means {}",
-                                                   nu, of_nu));
+      refuse("material.bulk_to_shear",
+             fmt::format("only free when poissons_ratio is 0.5; {} means {}", nu, of_nu));
     const double density = values_.number("material.density");
     if (density < 10)
       warn("material.density", fmt::format("{} kg/m^3 is hardly a solid (the paper's printed 1.160 "
-                                           "kg/m^3 is a slip for 1160)", density));
+                                           "kg/m^3 is a slip for 1160)",
+                                           density));
     if (scene_.youngs_modulus < 1e3 || scene_.youngs_modulus > 1e12)
-      warn("material.youngs_modulus", fmt::format("{} Pa is not that of a common solid",
-                                                  scene_.youngs_modulus));
+      warn("material.youngs_modulus",
+           fmt::format("{} Pa is not that of a common solid", scene_.youngs_modulus));
   }
 
   void resolution() {
     const double segment = scene_.slenderness() / scene_.segments;
     if (segment > 0.5)
-      warn("rod1d.segments", fmt::format("segments of {:.2g} D are too long for smooth contact",
-                                         segment));
+      warn("rod1d.segments",
+           fmt::format("segments of {:.2g} D are too long for smooth contact", segment));
   }
 
   void effects() {
@@ -102,7 +107,8 @@ class Check {
   void on_path(const char* key, double ebar) {
     const auto [low, high] = std::ranges::minmax(scene_.path.waypoints);
     if (ebar < low || ebar > high)
-      refuse(key, fmt::format("{} is not on the path; path.ebar runs from {} to {}", ebar, low, high));
+      refuse(key,
+             fmt::format("{} is not on the path; path.ebar runs from {} to {}", ebar, low, high));
   }
 
   void refuse(const std::string& key, const std::string& what) {

@@ -57,13 +57,17 @@ std::optional<Command> read_command_line(int argc, char** argv) {
     add_scene(sub, command);
     add_run_options(sub, command);
   }
-  add_scene(add_verb(app, "check", "Read a scene, say what will be simulated; run nothing"), command);
+  add_scene(add_verb(app, "check", "Read a scene, say what will be simulated; run nothing"),
+            command);
   add_verb(app, "keys", "List every key of a scene: unit, range, default, meaning");
-  CLI::App* compare =
-      add_verb(app, "compare", "Lay force curves of results folders and measured CSV files on each other");
-  compare->add_option("SOURCE", command.sources, "Results folders, or CSV files with columns ebar, force_normalised")
+  CLI::App* compare = add_verb(
+      app, "compare", "Lay force curves of results folders and measured CSV files on each other");
+  compare
+      ->add_option("SOURCE", command.sources,
+                   "Results folders, or CSV files with columns ebar, force_normalised")
       ->required();
-  compare->add_option("--out", command.out, "Folder for compare.csv; default: print only")->type_name("DIR");
+  compare->add_option("--out", command.out, "Folder for compare.csv; default: print only")
+      ->type_name("DIR");
   for (const char* later : {"study", "report"})
     app.add_subcommand(later)->group("")->allow_extras()->set_help_flag();
 

@@ -63,7 +63,8 @@ std::optional<double> parted_at(const Comparison& comparison, size_t i, double l
   std::vector<std::pair<double, double>> path;  // ebar, |difference| of the first tightening leg
   for (const Comparison::Row& row : comparison.rows) {
     if (!row.tightening || (!path.empty() && row.ebar > path.back().first)) break;
-    if (const auto difference = row.difference(i)) path.emplace_back(row.ebar, std::abs(*difference));
+    if (const auto difference = row.difference(i))
+      path.emplace_back(row.ebar, std::abs(*difference));
   }
   std::optional<double> parted;
   for (size_t k = path.size(); k-- > 0 && path[k].second >= level;) {
@@ -80,7 +81,8 @@ void write_comparison(const std::filesystem::path& file, const Comparison& compa
   std::string text = "ebar,tightening";
   for (const std::string& name : comparison.names) text += "," + name;
   text += ",loose_knot_law";
-  for (size_t i = 1; i < comparison.names.size(); ++i) text += "," + comparison.names[i] + "_difference";
+  for (size_t i = 1; i < comparison.names.size(); ++i)
+    text += "," + comparison.names[i] + "_difference";
   text += '\n';
   for (const Comparison::Row& row : comparison.rows) {
     text += fmt::format("{:.12g},{}", row.ebar, row.tightening ? 1 : 0);
@@ -95,7 +97,8 @@ void write_comparison(const std::filesystem::path& file, const Comparison& compa
 std::string comparison_text(const Comparison& comparison, size_t rows) {
   std::vector<const Comparison::Row*> shared;  // rows that say something about the difference
   for (const Comparison::Row& row : comparison.rows)
-    if (comparison.names.size() < 2 || std::ranges::all_of(row.force, [](const auto& force) { return force.has_value(); }))
+    if (comparison.names.size() < 2 ||
+        std::ranges::all_of(row.force, [](const auto& force) { return force.has_value(); }))
       shared.push_back(&row);
   std::string text = fmt::format("{:>9}", "ebar");
   for (const std::string& name : comparison.names) text += fmt::format("  {:>12}", name);

@@ -85,8 +85,9 @@ std::string curvature_text(const std::string& a, const std::string& b,
   std::string text;
   for (const CurvatureDifference& d : differences)
     text += fmt::format("{} {:.1f} % at ebar {:g}", text.empty() ? "" : ",", 100 * d.mean, d.ebar);
-  return text.empty() ? text
-                      : fmt::format("curvature of {} is off that of {} on average by{}\n", b, a, text);
+  return text.empty()
+             ? text
+             : fmt::format("curvature of {} is off that of {} on average by{}\n", b, a, text);
 }
 
 void write_curvature(const fs::path& file, const std::vector<CurvatureDifference>& differences) {
@@ -97,8 +98,9 @@ void write_curvature(const fs::path& file, const std::vector<CurvatureDifference
     a.push_back(d.largest_a);
     b.push_back(d.largest_b);
   }
-  write_csv(file, {{"ebar", ebar}, {"mean_difference", mean}, {"largest_kappa_a", a},
-                   {"largest_kappa_b", b}});
+  write_csv(
+      file,
+      {{"ebar", ebar}, {"mean_difference", mean}, {"largest_kappa_a", a}, {"largest_kappa_b", b}});
 }
 
 }  // namespace bight::coupling

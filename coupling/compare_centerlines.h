@@ -8,9 +8,9 @@ namespace bight::coupling {
 
 /// How far two curvature profiles lie apart at one recorded ebar.
 struct CurvatureDifference {
-  std::string state;          ///< "ebar_+020.000"
+  std::string state;  ///< "ebar_+020.000"
   double ebar = 0;
-  double mean = 0;            ///< mean |kappa_b - kappa_a| over mean kappa_a, along the knot
+  double mean = 0;  ///< mean |kappa_b - kappa_a| over mean kappa_a, along the knot
   double largest_a = 0, largest_b = 0;  ///< largest kappa D
 };
 

@@ -38,10 +38,11 @@ std::string solid_line(const Scene& scene) {
   const double block = 3.0 * mesh.points_per_layer();
   const double entries = 1.2 * mesh.layers() * block * block * (scene.contact ? 2 : 1);
   const double gigabytes = (8 * entries + 3000.0 * mesh.nodes()) / 1e9;
-  return fmt::format("solid  {}\n       {} cells in a section, about {} layers, {} cells, {} unknowns, "
-                     "{:.1f} GB\n",
-                     names(scene, &AskedEffect::in_solid), section.quads.size(), mesh.layers(),
-                     mesh.cells.size(), 3 * mesh.nodes(), gigabytes);
+  return fmt::format(
+      "solid  {}\n       {} cells in a section, about {} layers, {} cells, {} unknowns, "
+      "{:.1f} GB\n",
+      names(scene, &AskedEffect::in_solid), section.quads.size(), mesh.layers(), mesh.cells.size(),
+      3 * mesh.nodes(), gigabytes);
 }
 
 }  // namespace
@@ -49,10 +50,13 @@ std::string solid_line(const Scene& scene) {
 std::string expectations(const Scene& scene) {
   const Scales scales = scene.scales();
   std::string text = fmt::format(
-      "{}\nL0 = {:.4g} m = {:.5g} D, D = {:.4g} m, E = {:.4g} Pa, B = {:.4g} N m^2; Tbar = 1 is {:.4g} N\n"
-      "ebar", scene.title.empty() ? scene.name : scene.title, scene.length, scene.slenderness(),
+      "{}\nL0 = {:.4g} m = {:.5g} D, D = {:.4g} m, E = {:.4g} Pa, B = {:.4g} N m^2; Tbar = 1 is "
+      "{:.4g} N\n"
+      "ebar",
+      scene.title.empty() ? scene.name : scene.title, scene.length, scene.slenderness(),
       scene.diameter, scene.youngs_modulus,
-      scales.force() * scales.length() * scales.length() / normalised_force(4), scales.force() / normalised_force(1));
+      scales.force() * scales.length() * scales.length() / normalised_force(4),
+      scales.force() / normalised_force(1));
   for (const double ebar : scene.path.waypoints) text += fmt::format(" -> {:g}", ebar);
   text += fmt::format(", {} states recorded\n", scene.path.record.size());
   if (scene.rod || scene.solid) text += rod_line(scene);

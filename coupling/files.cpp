@@ -23,7 +23,8 @@ FileError failure(const std::filesystem::path& file, const char* what) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  if (error)
+    throw FileError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {
@@ -34,7 +35,8 @@ void write_whole(const std::filesystem::path& file, std::string_view text) {
   if (!out) throw failure(beside, "cannot be written");
   std::error_code error;
   std::filesystem::rename(beside, file, error);
-  if (error) throw FileError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
+  if (error)
+    throw FileError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
 }
 
 std::string read_whole(const std::filesystem::path& file) {

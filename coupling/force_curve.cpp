@@ -19,7 +19,8 @@ double end_slope(double h0, double h1, double slope0, double slope1) {
   return std::abs(m) > 3 * std::abs(slope0) ? 3 * slope0 : m;
 }
 
-// Slope at a point: the harmonic mean of its neighbours', 0 at an extremum: the cubic stays monotone.
+// Slope at a point: the harmonic mean of its neighbours', 0 at an extremum: the cubic stays
+// monotone.
 double slope_at(const ForceCurve& leg, size_t i) {
   const size_t last = leg.ebar.size() - 1;
   if (last == 1) return slope(leg, 0);

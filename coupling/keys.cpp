@@ -35,6 +35,7 @@ std::string_view last_part(std::string_view path) { return path.substr(path.rfin
 
 const std::vector<Key>& all_keys() {
   using enum Kind;
+  // clang-format off
   // path, kind, unit, range, words, default, how it is found otherwise, meaning
   static const std::vector<Key> keys = {
       {"title", text, "", {}, {}, R"("")", "", "What the scene is; copied into the results"},
@@ -100,6 +101,7 @@ const std::vector<Key>& all_keys() {
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
        "Distance of contact samples on the surface, in D"},
   };
+  // clang-format on
   return keys;
 }
 
@@ -129,14 +131,22 @@ std::string allowed(const Key& key) {
     case Kind::quantity:
       return fmt::format("a quantity such as \"1 {0}\" (a plain number is in {0}) in {1}", key.unit,
                          key.range.text());
-    case Kind::number: return "a number in " + key.range.text();
-    case Kind::integer: return "a whole number in " + key.range.text();
-    case Kind::boolean: return "true or false";
-    case Kind::word: return fmt::format("one of: {}", fmt::join(key.words, ", "));
-    case Kind::words: return fmt::format("a list of: {}", fmt::join(key.words, ", "));
-    case Kind::numbers: return "a list of numbers in " + key.range.text();
-    case Kind::text: return "text";
-    case Kind::file: return "the name of a file, relative to the scene";
+    case Kind::number:
+      return "a number in " + key.range.text();
+    case Kind::integer:
+      return "a whole number in " + key.range.text();
+    case Kind::boolean:
+      return "true or false";
+    case Kind::word:
+      return fmt::format("one of: {}", fmt::join(key.words, ", "));
+    case Kind::words:
+      return fmt::format("a list of: {}", fmt::join(key.words, ", "));
+    case Kind::numbers:
+      return "a list of numbers in " + key.range.text();
+    case Kind::text:
+      return "text";
+    case Kind::file:
+      return "the name of a file, relative to the scene";
   }
   return {};
 }

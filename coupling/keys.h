@@ -20,13 +20,13 @@ struct Range {
 
 /// One scene key: everything that reading, checking and `bight keys` need to know about it.
 struct Key {
-  std::string_view path;                 ///< "rod.diameter"
+  std::string_view path;  ///< "rod.diameter"
   Kind kind;
-  std::string unit;                      ///< SI, of a quantity
-  Range range;                           ///< of numbers
-  std::vector<std::string_view> words;   ///< of a word
-  std::string_view fallback;             ///< default as TOML; empty: required or derived
-  std::string_view otherwise;            ///< "required", or how the default is derived
+  std::string unit;                     ///< SI, of a quantity
+  Range range;                          ///< of numbers
+  std::vector<std::string_view> words;  ///< of a word
+  std::string_view fallback;            ///< default as TOML; empty: required or derived
+  std::string_view otherwise;           ///< "required", or how the default is derived
   std::string_view meaning;
 };
 

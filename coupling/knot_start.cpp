@@ -13,7 +13,8 @@
 namespace bight::coupling {
 namespace {
 
-// A file's length may differ this much from rod.length; the rod takes up the difference as it relaxes.
+// A file's length may differ this much from rod.length; the rod takes up the difference as it
+// relaxes.
 constexpr double length_tolerance = 0.02;
 
 Polyline from_file(const Scene& scene) {

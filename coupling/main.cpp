@@ -53,7 +53,8 @@ ExitStatus obey(const Command& command) {
       command.verb == "run" ? std::vector<std::string>{} : std::vector{command.verb};
   const Scene scene = read_scene(command.scene, command.settings, only);
   catch_interrupts();
-  return run(scene, {.folder = command.out.empty() ? std::filesystem::path("results") / scene.name : command.out,
+  return run(scene, {.folder = command.out.empty() ? std::filesystem::path("results") / scene.name
+                                                   : command.out,
                      .threads = command.threads,
                      .resume = command.resume,
                      .force = command.force,

@@ -15,7 +15,8 @@ class Phases {
     double peak_MB = 0;
   };
 
-  /// Ends the current phase and begins (or goes on with) another; returns the name of the one ended.
+  /// Ends the current phase and begins (or goes on with) another; returns the name of the one
+  /// ended.
   std::string enter(const std::string& name);
   const std::vector<Phase>& list() const { return phases_; }
   double seconds(const std::string& name) const;

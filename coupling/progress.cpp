@@ -24,7 +24,8 @@ std::string clock(double seconds) {
 
 std::string status_line(const std::string& fidelity, const StepRow& row) {
   std::string line = fmt::format(
-      "{:<5} ebar {:8.3f}  step {:+7.3f}  Tbar {:.6g}  iterations {}  contacts {}  residual {:.1e}  "
+      "{:<5} ebar {:8.3f}  step {:+7.3f}  Tbar {:.6g}  iterations {}  contacts {}  residual {:.1e} "
+      " "
       "{:.2f} s",
       fidelity, row.ebar, row.increment, normalised_force(row.tension), row.newton_iterations,
       row.contact_pairs, row.residual, row.wall_s);

@@ -36,7 +36,8 @@ std::vector<ForceCurve> read_curves(const fs::path& source) {
   std::vector<ForceCurve> curves;
   for (const auto& [name, folder] : fidelity_folders(source))
     curves.push_back(read_curve(folder / "force.csv", name));
-  if (curves.empty()) throw InputError(source.string() + ": no rod/force.csv and no solid/force.csv");
+  if (curves.empty())
+    throw InputError(source.string() + ": no rod/force.csv and no solid/force.csv");
   return curves;
 }
 

@@ -10,8 +10,8 @@
 
 namespace bight::coupling {
 
-/// The force curves of a results folder (rod, solid), or the one of a measured CSV file with columns
-/// ebar and force_normalised. Throws InputError when there is none.
+/// The force curves of a results folder (rod, solid), or the one of a measured CSV file with
+/// columns ebar and force_normalised. Throws InputError when there is none.
 std::vector<ForceCurve> read_curves(const std::filesystem::path& source);
 
 /// Folders with centerline files in a results folder, by the names that their force curves have.

@@ -60,8 +60,9 @@ bool Table::has(const std::string& name) const {
 
 int Table::column(const std::string& name) const {
   if (!has(name))
-    throw InputError(fmt::format("{}: no column {}; there are: {}", file, name,
-                                 names.empty() ? "no names" : fmt::format("{}", fmt::join(names, ", "))));
+    throw InputError(
+        fmt::format("{}: no column {}; there are: {}", file, name,
+                    names.empty() ? "no names" : fmt::format("{}", fmt::join(names, ", "))));
   return static_cast<int>(std::ranges::find(names, name) - names.begin());
 }
 
@@ -88,10 +89,11 @@ Table read_table(const std::filesystem::path& file) {
       for (const std::string& cell : cells) table.names.push_back(lower(cell));
       continue;
     }
-    if (row.size() != cells.size()) throw refuse(fmt::format("not all are numbers: {}", trimmed(text)));
+    if (row.size() != cells.size())
+      throw refuse(fmt::format("not all are numbers: {}", trimmed(text)));
     if (!std::ranges::all_of(row, [](double x) { return std::isfinite(x); }))
       throw refuse("not all numbers are finite");
-    const size_t width = !table.names.empty()  ? table.names.size()
+    const size_t width = !table.names.empty() ? table.names.size()
                          : table.rows.empty() ? row.size()
                                               : table.rows.front().size();
     if (row.size() != width)

@@ -72,15 +72,19 @@ Value to_value(const Key& key, const toml::node& node) {
   switch (key.kind) {
     case Kind::quantity:
     case Kind::number:
-    case Kind::integer: return to_number(key, node);
+    case Kind::integer:
+      return to_number(key, node);
     case Kind::boolean:
       if (!node.is_boolean()) throw not_allowed(key, shown(node));
       return **node.as_boolean();
     case Kind::word:
     case Kind::text:
-    case Kind::file: return to_word(key, node);
-    case Kind::words: return to_list(key, node, to_word);
-    case Kind::numbers: return to_list(key, node, to_number);
+    case Kind::file:
+      return to_word(key, node);
+    case Kind::words:
+      return to_list(key, node, to_word);
+    case Kind::numbers:
+      return to_list(key, node, to_number);
   }
   return {};
 }
@@ -168,8 +172,9 @@ Values read_values(const std::string& text, const std::string& name,
     const std::string path(key.path);
     if (values.has(path) || problems.about(path)) continue;
     if (!key.fallback.empty())
-      values.set(path, {to_value(key, *toml::parse("value = " + std::string(key.fallback))
-                                           .get("value")), ""});
+      values.set(
+          path,
+          {to_value(key, *toml::parse("value = " + std::string(key.fallback)).get("value")), ""});
     else if (key.otherwise == "required")
       problems.add(name, path, "missing; write " + allowed(key));
   }

@@ -82,8 +82,8 @@ void Recorder::write(const solid3d::Mesh& mesh, const solid3d::SolidState& state
   write_solid_vtu(solid_->folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
   solid_->series.add(state.ebar, "vtu/" + name + ".vtu");
   solid3d::SolidState light = state;
-  for (auto* field : {&light.jacobian, &light.pressure, &light.von_mises, &light.contact_pressure,
-                      &light.gap})
+  for (auto* field :
+       {&light.jacobian, &light.pressure, &light.von_mises, &light.contact_pressure, &light.gap})
     field->clear();
   light.nodes.clear();
   solid_states.push_back(std::move(light));

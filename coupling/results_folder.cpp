@@ -46,11 +46,12 @@ FolderState take_folder(const fs::path& folder, const Scene& scene, bool resume,
   }
   if (same_scene(folder, scene) && finished(folder)) return FolderState::finished;
   if (resume)
-    throw InputError(fmt::format("{}: no checkpoint to go on from; --force starts over",
-                                 folder.string()));
-  throw InputError(fmt::format("{}: the folder is not empty and holds no finished result of this "
-                               "scene; --force starts over, --out names another folder",
-                               folder.string()));
+    throw InputError(
+        fmt::format("{}: no checkpoint to go on from; --force starts over", folder.string()));
+  throw InputError(
+      fmt::format("{}: the folder is not empty and holds no finished result of this "
+                  "scene; --force starts over, --out names another folder",
+                  folder.string()));
 }
 
 }  // namespace bight::coupling

@@ -25,10 +25,10 @@ ForceCurve curve(const std::string& name, const std::vector<StepRow>& steps) {
 solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder) {
   recorder.phases.enter("seed");
   const rod1d::RodState& seed = *recorder.seed;
-  const solid3d::Mesh mesh = swept_mesh(
-      {.section_elements = scene.section_elements, .axial_ratio = scene.axial_ratio,
-       .tail_ratio = scene.tail_ratio},
-      seed);
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = scene.section_elements,
+                                         .axial_ratio = scene.axial_ratio,
+                                         .tail_ratio = scene.tail_ratio},
+                                        seed);
   const std::vector<Vector3> start = sweep(mesh, seed);
   solid3d::SolidParameters parameters = solid_parameters(scene);
   parameters.expected_tension = seed.tension;
@@ -42,9 +42,10 @@ Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recor
   if (report.solid) curves.push_back(curve("solid", report.solid->steps));
   const Comparison comparison = compare(curves, scene.friction);
   write_comparison(recorder.folder() / "compare.csv", comparison);
-  recorder.progress.say(comparison_text(comparison) +
-                        curvature_text("rod", "solid", compare_centerlines(recorder.folder() / "rod",
-                                                                           recorder.folder() / "solid")));
+  recorder.progress.say(
+      comparison_text(comparison) +
+      curvature_text("rod", "solid",
+                     compare_centerlines(recorder.folder() / "rod", recorder.folder() / "solid")));
   return comparison;
 }
 
@@ -67,7 +68,8 @@ ExitStatus run(const Scene& scene, const RunOptions& options) {
   report.comparison = compare_fidelities(scene, report, recorder);
   write_summary(report, recorder);
 
-  recorder.progress.say(fmt::format("{}; results in {}", report.verdict(), options.folder.string()));
+  recorder.progress.say(
+      fmt::format("{}; results in {}", report.verdict(), options.folder.string()));
   return report.interrupted() ? stopped : report.finished() ? done : gave_up;
 }
 

@@ -33,16 +33,16 @@ void derive(Values& values, const char* key, const T& value) {
 // Defaults that follow from other keys; `bight keys` says how.
 void derive_defaults(Values& values) {
   const double nu = values.number("material.poissons_ratio");
-  derive(values, "material.bulk_to_shear",
-         nu == 0.5 ? 1000.0 : 2 * (1 + nu) / (3 * (1 - 2 * nu)));
+  derive(values, "material.bulk_to_shear", nu == 0.5 ? 1000.0 : 2 * (1 + nu) / (3 * (1 - 2 * nu)));
   if (!values.has("knot.centerline")) derive(values, "knot.type", std::string("overhand"));
   derive(values, "effects.twist",
          values.number("effects.friction") > 0 || values.word("ends.finish") == "clamped");
   const auto waypoints = values.get<std::vector<double>>("path.ebar");
   derive(values, "path.record", waypoints);
   derive(values, "solid3d.seed_ebar", waypoints.front());
-  derive(values, "rod1d.segments",
-         std::max(60.0, std::round(8 * values.number("rod.length") / values.number("rod.diameter"))));
+  derive(
+      values, "rod1d.segments",
+      std::max(60.0, std::round(8 * values.number("rod.length") / values.number("rod.diameter"))));
 }
 
 // The first waypoint after which the path has come by the seed.

@@ -14,12 +14,12 @@ namespace bight::coupling {
 
 /// A scene that was read, checked and completed. Lengths in m, stresses in Pa; ebar has no unit.
 struct Scene {
-  std::string name;   ///< file name without .toml
+  std::string name;  ///< file name without .toml
   std::string title;
   bool rod = true, solid = true;  ///< fidelities
   double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5, bulk_to_shear = 1000;
-  std::string knot;                   ///< "overhand", "figure-eight"; empty with a centerline
-  std::filesystem::path centerline;   ///< file with the tied start; empty with a knot
+  std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
+  std::filesystem::path centerline;  ///< file with the tied start; empty with a knot
   bool finish_turns = true, contact = true, twist = false;
   double friction = 0;
   Path path;

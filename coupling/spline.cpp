@@ -6,7 +6,8 @@ namespace bight::coupling {
 
 Spline::Spline(std::vector<double> s, Polyline points)
     : s_(std::move(s)), r_(std::move(points)), second_(r_.size(), Vector3::Zero()) {
-  // Continuity of the slope: h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 (slope1 - slope0); Thomas algorithm.
+  // Continuity of the slope: h0 m0 + 2 (h0 + h1) m1 + h1 m2 = 6 (slope1 - slope0); Thomas
+  // algorithm.
   const size_t n = r_.size();
   std::vector<double> diagonal(n, 1.0), upper(n, 0.0);
   for (size_t i = 1; i + 1 < n; ++i) {

@@ -32,6 +32,37 @@ double twist_at(const rod1d::RodState& rod, double s) {
   return theta.back();
 }
 
+/// The grips keep the end sections flat, round and across the pulling axis.
+bool is_held(const solid3d::Mesh& mesh, int layer) {
+  return layer == 0 || layer == mesh.layers() - 1;
+}
+
+/// Section axes (third: tangent), transported along the centerline from the start, and twisted.
+std::vector<Matrix3> section_frames(const solid3d::Mesh& mesh, const rod1d::RodState& rod,
+                                    const Spline& curve) {
+  std::vector<Matrix3> frames;
+  Matrix3 frame = Matrix3::Identity();
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const Vector3 next = is_held(mesh, k) ? Vector3(Vector3::UnitZ())
+                                          : Vector3(curve.at(mesh.s[k]).dr.normalized());
+    frame = transport(frame.col(2), next) * frame;
+    frames.push_back(frame * Eigen::AngleAxisd(twist_at(rod, mesh.s[k]), Vector3::UnitZ())
+                                 .toRotationMatrix());
+  }
+  return frames;
+}
+
+/// The roll of all sections that turns the x axis of the middle one towards the pulling axis. The
+/// round rod does not mind; a knot with a two-fold axis there keeps its symmetry in the mesh.
+double roll_of_middle(const solid3d::Mesh& mesh, const std::vector<Matrix3>& frames,
+                      const Spline& curve) {
+  const int middle = mesh.layers() / 2;
+  Vector3 inwards = curve.at(0).r - curve.at(mesh.s[middle]).r;
+  inwards.z() = 0;
+  const Vector3 local = frames[middle].transpose() * inwards;
+  return local.head<2>().norm() < 1e-6 ? 0.0 : std::atan2(local.y(), local.x());
+}
+
 }  // namespace
 
 solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod) {
@@ -46,30 +77,28 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
       begin = std::min(begin, rod.s[i]);
       end = std::max(end, rod.s[i]);
     }
-  return solid3d::make_mesh(
-      section, solid3d::graded_layers(rod.s.back(), options.axial_ratio * width,
-                                      options.tail_ratio * width, begin - options.knot_margin,
-                                      end + options.knot_margin));
+  // Equal tails, so that a knot tied in the middle keeps its symmetry in the mesh.
+  const double length = rod.s.back();
+  const double tail = std::max(0.0, std::min(begin, length - end) - options.knot_margin);
+  return solid3d::make_mesh(section,
+                            solid3d::graded_layers(length, options.axial_ratio * width,
+                                                   options.tail_ratio * width, tail,
+                                                   length - tail));
 }
 
 std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod) {
   const Spline curve(rod.s, rod.nodes);
+  const std::vector<Matrix3> frames = section_frames(mesh, rod, curve);
+  const double roll = roll_of_middle(mesh, frames, curve);
   std::vector<Vector3> nodes;
   nodes.reserve(static_cast<size_t>(mesh.nodes()));
-  Vector3 tangent = Vector3::UnitZ();
-  Matrix3 frame = Matrix3::Identity();
   for (int k = 0; k < mesh.layers(); ++k) {
-    const double s = mesh.s[k];
-    const Spline::Point c = curve.at(s);
+    const Spline::Point c = curve.at(mesh.s[k]);
+    const Matrix3 R = frames[k] * Eigen::AngleAxisd(roll, Vector3::UnitZ()).toRotationMatrix();
     const double stretch = c.dr.norm();
-    // The grips keep the end sections flat, round and across the pulling axis.
-    const bool held = k == 0 || k == mesh.layers() - 1;
-    const Vector3 next = held ? Vector3::UnitZ() : Vector3(c.dr / stretch);
-    frame = transport(tangent, next) * frame;
-    tangent = next;
-    const Matrix3 R =
-        frame * Eigen::AngleAxisd(twist_at(rod, s), Vector3::UnitZ()).toRotationMatrix();
     // Curvature vector dt/ds in the section's axes, by deformed length.
+    const bool held = is_held(mesh, k);
+    const Vector3 tangent = R.col(2);
     const Vector3 bend = (c.ddr - tangent * tangent.dot(c.ddr)) / (stretch * stretch);
     const Vector2 kappa = held ? Vector2::Zero() : Vector2((R.transpose() * bend).head<2>());
     const double lateral = held ? 1.0 : 1 / std::sqrt(stretch);

@@ -65,7 +65,8 @@ std::string Values::toml() const {
       text += fmt::format("\n[{}]\n", section);
     }
     const std::string name(dot == key.path.npos ? key.path : key.path.substr(dot + 1));
-    text += name + " = " + std::visit([](const auto& v) { return toml_text(v); }, found->second.value);
+    text +=
+        name + " = " + std::visit([](const auto& v) { return toml_text(v); }, found->second.value);
     text += key.unit.empty() ? "\n" : fmt::format("  # {}\n", key.unit);
   }
   return text;

@@ -11,7 +11,8 @@
 namespace bight::coupling {
 
 /// What a scene gives for a key, in SI; integers are whole doubles, words are strings.
-using Value = std::variant<bool, double, std::string, std::vector<double>, std::vector<std::string>>;
+using Value =
+    std::variant<bool, double, std::string, std::vector<double>, std::vector<std::string>>;
 
 struct Given {
   Value value;
@@ -37,7 +38,7 @@ class Values {
  public:
   explicit Values(std::string scene) : scene_(std::move(scene)) {}
   bool has(std::string_view key) const { return given_.contains(std::string(key)); }
-  bool written(std::string_view key) const;  ///< by the user, that is not a default
+  bool written(std::string_view key) const;       ///< by the user, that is not a default
   std::string where(std::string_view key) const;  ///< the scene as a whole for a default
   void set(std::string_view key, Given given) { given_[std::string(key)] = std::move(given); }
   /// The value of a key, or what `T` is without one.

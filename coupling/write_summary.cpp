@@ -47,15 +47,14 @@ Json versions() {
 }
 
 Json path_numbers(const PathOutcome& outcome, const std::vector<StepRow>& steps) {
-  Json result = {
-      {"status", outcome.status == PathStatus::finished  ? "finished"
-                 : outcome.status == PathStatus::gave_up ? "gave up"
-                                                         : "interrupted"},
-      {"reason", outcome.reason},
-      {"steps", outcome.steps},
-      {"newton_iterations", outcome.iterations},
-      {"factorisations", outcome.factorisations},
-      {"cutbacks", outcome.cutbacks}};
+  Json result = {{"status", outcome.status == PathStatus::finished  ? "finished"
+                            : outcome.status == PathStatus::gave_up ? "gave up"
+                                                                    : "interrupted"},
+                 {"reason", outcome.reason},
+                 {"steps", outcome.steps},
+                 {"newton_iterations", outcome.iterations},
+                 {"factorisations", outcome.factorisations},
+                 {"cutbacks", outcome.cutbacks}};
   if (steps.empty()) return result;
   const auto worst = [&](auto of) { return std::ranges::max(steps, {}, of); };
   result["wall_s"] = steps.back().wall_s;
@@ -74,7 +73,8 @@ Json energies(const std::map<std::string, double>& by_effect, double scale) {
 }
 
 Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
-  Json result = {{"segments", scene.segments}, {"unknowns", rod.unknowns}, {"effects", rod.effects}};
+  Json result = {
+      {"segments", scene.segments}, {"unknowns", rod.unknowns}, {"effects", rod.effects}};
   result.update(path_numbers(rod.outcome, rod.steps));
   result["seconds"] = rod.seconds;
   Json valid_down_to;  // null: not even at the first state
@@ -84,13 +84,14 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
     const double stretch = std::ranges::max(state.stretch) - 1;
     valid = valid && bending < largest_bending_strain && stretch < largest_stretch_strain;
     if (valid) valid_down_to = state.ebar;
-    result["states"].push_back({{"ebar", state.ebar},
-                                {"force_normalised", normalised_force(state.tension)},
-                                {"determinant", state.determinant},
-                                {"writhe", state.writhe},
-                                {"largest_bending_strain", bending},
-                                {"largest_stretch_strain", stretch},
-                                {"energy_J", energies(state.energy_by_effect, scene.scales().energy())}});
+    result["states"].push_back(
+        {{"ebar", state.ebar},
+         {"force_normalised", normalised_force(state.tension)},
+         {"determinant", state.determinant},
+         {"writhe", state.writhe},
+         {"largest_bending_strain", bending},
+         {"largest_stretch_strain", stretch},
+         {"energy_J", energies(state.energy_by_effect, scene.scales().energy())}});
   }
   result["validity"] = {{"largest_bending_strain_allowed", largest_bending_strain},
                         {"largest_stretch_strain_allowed", largest_stretch_strain},
@@ -98,7 +99,8 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
   return result;
 }
 
-Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene, const Recorder& recorder) {
+Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
+                   const Recorder& recorder) {
   Json result = {{"cells", solid.cells}, {"unknowns", solid.unknowns}, {"effects", solid.effects}};
   result.update(path_numbers(solid.outcome, solid.steps));
   if (!solid.steps.empty())
@@ -106,13 +108,14 @@ Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene, const 
         std::ranges::min(solid.steps, {}, &StepRow::min_jacobian).min_jacobian;
   result["seconds"] = solid.seconds;
   for (const solid3d::SolidState& state : recorder.solid_states)
-    result["states"].push_back({{"ebar", state.ebar},
-                                {"force_normalised", normalised_force(state.tension)},
-                                {"determinant", state.determinant},
-                                {"largest_curvature", std::ranges::max(state.curvature)},
-                                {"largest_flattening", std::ranges::max(state.flattening)},
-                                {"smallest_jacobian", state.min_jacobian},
-                                {"energy_J", energies(state.energy_by_effect, scene.scales().energy())}});
+    result["states"].push_back(
+        {{"ebar", state.ebar},
+         {"force_normalised", normalised_force(state.tension)},
+         {"determinant", state.determinant},
+         {"largest_curvature", std::ranges::max(state.curvature)},
+         {"largest_flattening", std::ranges::max(state.flattening)},
+         {"smallest_jacobian", state.min_jacobian},
+         {"energy_J", energies(state.energy_by_effect, scene.scales().energy())}});
   return result;
 }
 
@@ -120,9 +123,11 @@ Json comparison_numbers(const Comparison& comparison, const Recorder& recorder) 
   Json result;
   for (const double level : {0.02, 0.05, 0.1}) {
     const auto parted = parted_at(comparison, 1, level);
-    result["parted_from_ebar"][fmt::format("{:.0f} %", 100 * level)] = parted ? Json(*parted) : Json();
+    result["parted_from_ebar"][fmt::format("{:.0f} %", 100 * level)] =
+        parted ? Json(*parted) : Json();
   }
-  const auto curvature = compare_centerlines(recorder.folder() / "rod", recorder.folder() / "solid");
+  const auto curvature =
+      compare_centerlines(recorder.folder() / "rod", recorder.folder() / "solid");
   write_curvature(recorder.folder() / "curvature.csv", curvature);
   for (const CurvatureDifference& d : curvature)
     result["curvature"].push_back({{"ebar", d.ebar},
@@ -160,10 +165,10 @@ std::string RunReport::verdict() const {
 void write_summary(const RunReport& report, Recorder& recorder) {
   recorder.phases.enter("write");
   const Scene& scene = report.scene;
-  Json summary = {{"status", report.status()},      {"verdict", report.verdict()},
-                  {"scene", scene.name},            {"title", scene.title},
-                  {"friction", scene.friction},     {"warnings", scene.warnings},
-                  {"versions", versions()},         {"machine", machine(report.threads)}};
+  Json summary = {{"status", report.status()},  {"verdict", report.verdict()},
+                  {"scene", scene.name},        {"title", scene.title},
+                  {"friction", scene.friction}, {"warnings", scene.warnings},
+                  {"versions", versions()},     {"machine", machine(report.threads)}};
   if (scene.rod) summary["rod"] = rod_numbers(report.rod, scene);
   if (report.solid) summary["solid"] = solid_numbers(*report.solid, scene, recorder);
   if (report.comparison.names.size() > 1)

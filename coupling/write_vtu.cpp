@@ -22,7 +22,8 @@ namespace {
 void set_points(vtkUnstructuredGrid* grid, const std::vector<Vector3>& positions, double scale) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (const Vector3& p : positions) points->InsertNextPoint(scale * p.x(), scale * p.y(), scale * p.z());
+  for (const Vector3& p : positions)
+    points->InsertNextPoint(scale * p.x(), scale * p.y(), scale * p.z());
   grid->SetPoints(points);
 }
 
@@ -41,7 +42,8 @@ void add_field(vtkDataSetAttributes* attributes, const char* name,
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(3);
-  for (const Vector3& v : values) array->InsertNextTuple3(scale * v.x(), scale * v.y(), scale * v.z());
+  for (const Vector3& v : values)
+    array->InsertNextTuple3(scale * v.x(), scale * v.y(), scale * v.z());
   attributes->AddArray(array);
 }
 
@@ -55,7 +57,8 @@ void write_grid(const std::filesystem::path& file, vtkUnstructuredGrid* grid) {
   if (!writer->Write()) throw FileError(beside + ": cannot be written");
   std::error_code error;
   std::filesystem::rename(beside, file, error);
-  if (error) throw FileError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
+  if (error)
+    throw FileError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
 }
 
 }  // namespace
@@ -103,9 +106,12 @@ void write_solid_vtu(const std::filesystem::path& file, const solid3d::Mesh& mes
 }
 
 void Series::add(double ebar, const std::string& state_file) {
-  entries_ += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n", ebar, state_file);
-  write_whole(file_, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
-                     "  <Collection>\n" + entries_ + "  </Collection>\n</VTKFile>\n");
+  entries_ +=
+      fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n", ebar, state_file);
+  write_whole(file_,
+              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
+              "  <Collection>\n" +
+                  entries_ + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace bight::coupling

@@ -1,7 +1,6 @@
 #include "coupling/compare.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "coupling/errors.h"

@@ -1,7 +1,6 @@
 #include "coupling/compare_centerlines.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "coupling/write_csv.h"

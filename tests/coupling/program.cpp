@@ -3,9 +3,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 
 #include "coupling/read_table.h"
@@ -20,8 +19,8 @@ struct Outcome {
 };
 
 Outcome call(const TemporaryFolder& folder, const std::string& words) {
-  const std::string command = "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words +
-                              " > said 2> complained";
+  const std::string command =
+      "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words + " > said 2> complained";
   const int status = std::system(command.c_str());
   return {WEXITSTATUS(status), text_of(folder / "said"), text_of(folder / "complained")};
 }
@@ -45,7 +44,9 @@ TEST_CASE("bad input ends with 2, one message, and nothing written") {
   folder.write("loose.toml", small_scene_with("[30, 20]", "[50, 20]"));
   folder.write("nan.toml", small_scene_with("\"8.3 mm\"", "nan"));
   folder.write("empty.toml", "");
-  folder.write("binary.toml", std::string("\x7f" "ELF\0\1\2\xff", 8));
+  folder.write("binary.toml", std::string("\x7f"
+                                          "ELF\0\1\2\xff",
+                                          8));
   folder.write("good.toml", quick_scene());
   const std::string words = GENERATE(
       "run typo.toml", "rod unit.toml", "solid negative.toml", "run poisson.toml", "run loose.toml",
@@ -64,8 +65,8 @@ TEST_CASE("bad input ends with 2, one message, and nothing written") {
 TEST_CASE("help, version, keys and check answer with 0 and write nothing") {
   const TemporaryFolder folder;
   folder.write("good.toml", quick_scene());
-  const std::string words = GENERATE("--help", "--version", "run --help", "compare --version", "keys",
-                                     "check good.toml");
+  const std::string words =
+      GENERATE("--help", "--version", "run --help", "compare --version", "keys", "check good.toml");
   const Outcome outcome = call(folder, words);
   CAPTURE(words);
   CHECK(outcome.status == 0);
@@ -100,7 +101,8 @@ TEST_CASE("a rod runs, is found again, and is only replaced when told so") {
   CHECK(forced.said.empty());
   CHECK(lines(text_of(folder / "results/quick/rod/force.csv")) < lines(force));
 
-  const Outcome compared = call(folder, "compare results/quick results/quick/rod/force.csv --out c");
+  const Outcome compared =
+      call(folder, "compare results/quick results/quick/rod/force.csv --out c");
   CHECK(compared.status == 0);
   CHECK(std::filesystem::exists(folder / "c/compare.csv"));
 }
@@ -115,8 +117,8 @@ TEST_CASE("a folder that cannot be made ends with 3") {
 
 TEST_CASE("an interrupted run ends with 130 and leaves whole files") {
   const TemporaryFolder folder;
-  const std::string scene = folder.write(
-      "slow.toml", "fidelities = [\"rod\"]\n" + small_scene + "max_step = 0.002\n");
+  const std::string scene =
+      folder.write("slow.toml", "fidelities = [\"rod\"]\n" + small_scene + "max_step = 0.002\n");
   const std::string out = folder / "out";
   const pid_t child = fork();
   if (child == 0) {

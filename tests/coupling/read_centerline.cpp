@@ -25,14 +25,16 @@ std::string arc(const std::string& header, const char* format, double radius = 0
 
 TEST_CASE("a centerline is read from CSV with and without header, and from blanks") {
   const TemporaryFolder folder;
-  for (const auto& text : {arc("", "%.12g,%.12g,%.12g\n"), arc("# scan\nx,y,z\n", "%.12g,%.12g,%.12g\n"),
-                           arc("", "%.12g  %.12g %.12g 0.5\n")}) {
+  for (const auto& text :
+       {arc("", "%.12g,%.12g,%.12g\n"), arc("# scan\nx,y,z\n", "%.12g,%.12g,%.12g\n"),
+        arc("", "%.12g  %.12g %.12g 0.5\n")}) {
     const Polyline line = read_centerline(folder.write("scan", text));
     REQUIRE(line.size() == 21);
     CHECK(line[20].x() == Approx(0.1 * std::cos(2.0)));
     CHECK(line[20].z() == Approx(5));
   }
-  const Polyline swapped = read_centerline(folder.write("scan", arc("y,x,z\n", "%.12g,%.12g,%.12g\n")));
+  const Polyline swapped =
+      read_centerline(folder.write("scan", arc("y,x,z\n", "%.12g,%.12g,%.12g\n")));
   CHECK(swapped[0].y() == Approx(0.1));
 }
 
@@ -48,10 +50,10 @@ TEST_CASE("a centerline is aligned without being bent") {
 
 TEST_CASE("what is no open curve is refused with file and line") {
   const TemporaryFolder folder;
-  const auto text = GENERATE(std::string("x,y,z\n"), std::string("0,0,0\n0,0,1\n"),
-                             arc("", "%.1f,%.1f\n"), arc("", "%.12g,%.12g,nan\n"),
-                             arc("", "%.12g,%.12g,hello\n"), arc("a,b,c\n", "%.12g,%.12g,%.12g\n"),
-                             arc("", "0,0,0\n"));
+  const auto text =
+      GENERATE(std::string("x,y,z\n"), std::string("0,0,0\n0,0,1\n"), arc("", "%.1f,%.1f\n"),
+               arc("", "%.12g,%.12g,nan\n"), arc("", "%.12g,%.12g,hello\n"),
+               arc("a,b,c\n", "%.12g,%.12g,%.12g\n"), arc("", "0,0,0\n"));
   CAPTURE(text);
   CHECK_THROWS_AS(read_centerline(folder.write("scan", text)), InputError);
 }

@@ -42,7 +42,8 @@ TEST_CASE("resuming without a checkpoint is refused") {
 
 TEST_CASE("starting over clears what bight writes and leaves the rest") {
   const TemporaryFolder folder;
-  for (const char* name : {"scene.toml", "summary.json", "run.log", "notes.txt"}) folder.write(name, "");
+  for (const char* name : {"scene.toml", "summary.json", "run.log", "notes.txt"})
+    folder.write(name, "");
   std::filesystem::create_directories(folder / "rod/centerline");
   folder.write("rod/force.csv", "");
   CHECK(take_folder(folder.path(), {}, false, true) == FolderState::fresh);

@@ -1,7 +1,6 @@
 #include "coupling/scene.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "coupling/errors.h"
@@ -42,11 +41,10 @@ TEST_CASE("a scene of four tables is complete") {
 
 TEST_CASE("the filled-in scene reads back to itself") {
   const TemporaryFolder folder;
-  const auto overrides = GENERATE(std::vector<std::string>{},
-                                  std::vector<std::string>{"material.poissons_ratio=0.3",
-                                                           "title=a \"quoted\" \\ title",
-                                                           "rod.length=1.1 ft",
-                                                           "path.record=[29.1, 21]"});
+  const auto overrides = GENERATE(
+      std::vector<std::string>{},
+      std::vector<std::string>{"material.poissons_ratio=0.3", "title=a \"quoted\" \\ title",
+                               "rod.length=1.1 ft", "path.record=[29.1, 21]"});
   const Scene scene = read_scene(folder.write("knot.toml", small_scene), overrides);
   const Scene again = read_scene(folder.write("again.toml", scene.text), {});
   CHECK(again.text == scene.text);
@@ -70,7 +68,8 @@ TEST_CASE("an override takes the same way as the file") {
   CHECK(scene.segments == 100);
   CHECK(complaint(small_scene, {"rod.diamter=1 mm"}) ==
         "--set: rod.diamter: unknown key; nearest is rod.diameter");
-  CHECK(complaint(small_scene, {"rod.diameter"}) == "--set rod.diameter: write --set key.path=value");
+  CHECK(complaint(small_scene, {"rod.diameter"}) ==
+        "--set rod.diameter: write --set key.path=value");
 }
 
 TEST_CASE("a bad scene is refused with a line that names place, key, value and what is allowed") {
@@ -79,12 +78,14 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
     std::vector<std::string> words;
   };
   const auto bad = GENERATE(values<Bad>({
-      {small_scene_with("diameter =", "diamter ="), {":3", "rod.diamter", "nearest is rod.diameter"}},
+      {small_scene_with("diameter =", "diamter ="),
+       {":3", "rod.diamter", "nearest is rod.diameter"}},
       {small_scene_with("8.3 mm", "8.3 kg"), {":3", "rod.diameter", "8.3 kg", "unit of m"}},
       {small_scene_with("8.3 mm", "-8.3 mm"), {":3", "rod.diameter", "-8.3 mm", "(0, inf)"}},
       {small_scene_with("\"8.3 mm\"", "nan"), {":3", "rod.diameter", "nan"}},
       {small_scene_with("\"8.3 mm\"", "true"), {":3", "rod.diameter", "true"}},
-      {small_scene_with("[path]", "poissons_ratio = 2\n[path]"), {":6", "poissons_ratio", "[0, 0.5]"}},
+      {small_scene_with("[path]", "poissons_ratio = 2\n[path]"),
+       {":6", "poissons_ratio", "[0, 0.5]"}},
       {small_scene_with("[path]", "model = \"steel\"\n[path]"), {"steel", "neo-hookean"}},
       {small_scene_with("[30, 20]", "[40, 20]"), {":7", "path.ebar", "40", "at most 38.17"}},
       {small_scene_with("[30, 20]", "[30, -50]"), {":7", "path.ebar", "-50"}},
@@ -97,11 +98,15 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "yet", "contact"}},
       {small_scene + "[effects]\ngravity = true\n", {":9", "effects.gravity", "no such effect"}},
       {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},
-      {small_scene + "[knot]\ncenterline = \"no.csv\"\n", {":9", "knot.centerline", "no such file"}},
+      {small_scene + "[knot]\ncenterline = \"no.csv\"\n",
+       {":9", "knot.centerline", "no such file"}},
       {small_scene + "[rod1d]\nsegments = 10.5\n", {":9", "rod1d.segments", "whole number"}},
       {"title = [", {":1"}},
       {"", {"empty"}},
-      {std::string("\x7f" "ELF\0\1\2", 7), {"binary"}},
+      {std::string("\x7f"
+                   "ELF\0\1\2",
+                   7),
+       {"binary"}},
   }));
   const std::string said = complaint(bad.scene);
   CAPTURE(bad.scene, said);
@@ -115,7 +120,8 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
 
 TEST_CASE("all problems are reported at once") {
   const std::string said = complaint(
-      "[rod]\nlength = 0.35\ndiamter = \"8.3 mm\"\n[material]\nyoungs_modulus = \"1 m\"\n", {"x=1"});
+      "[rod]\nlength = 0.35\ndiamter = \"8.3 mm\"\n[material]\nyoungs_modulus = \"1 m\"\n",
+      {"x=1"});
   CHECK(std::ranges::count(said, '\n') == 3);  // diamter, modulus, x, no path
 }
 

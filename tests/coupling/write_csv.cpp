@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <catch2/catch.hpp>
-
 #include <csignal>
 
 #include "coupling/errors.h"
@@ -23,8 +22,9 @@ TEST_CASE("force.csv begins with the agreed columns and holds SI and normalised 
   row.energy = 0.2;
   csv.step(row);
   const std::string text = text_of(folder / "force.csv");
-  CHECK(text.starts_with("ebar,force_normalised,force_N,energy_J,dissipated_J,max_penetration,"
-                         "contact_pairs,newton_iterations,wall_s"));
+  CHECK(
+      text.starts_with("ebar,force_normalised,force_N,energy_J,dissipated_J,max_penetration,"
+                       "contact_pairs,newton_iterations,wall_s"));
   CHECK(text.ends_with('\n'));
   const Table table = read_table(folder / "force.csv");
   CHECK(table.rows[0][table.column("force_normalised")] ==

@@ -36,7 +36,8 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   REQUIRE(grid->GetNumberOfCells() == 24);
   CHECK(grid->GetCellType(0) == VTK_HEXAHEDRON);
   for (int i = 0; i < mesh.nodes(); ++i) {
-    CHECK((Eigen::Map<const Vector3>(grid->GetPoint(i)) - 0.0166 * mesh.reference(i)).norm() < 1e-15);
+    CHECK((Eigen::Map<const Vector3>(grid->GetPoint(i)) - 0.0166 * mesh.reference(i)).norm() <
+          1e-15);
     double reference[3];
     grid->GetPointData()->GetArray("reference")->GetTuple(i, reference);
     CHECK((Eigen::Map<Vector3>(reference) - 0.0083 * mesh.reference(i)).norm() < 1e-15);
