@@ -1,0 +1,145 @@
+#include "mechanics/assemble.h"
+
+#include <catch2/catch.hpp>
+#include <omp.h>
+
+#include <random>
+
+#include "tests/mechanics/toy_effects.h"
+
+using namespace bight;
+
+namespace {
+
+/// Twelve points of three coordinates and an angle that turns the last two about an axis askew.
+struct Problem {
+  Vector x;
+  std::vector<int> blocks;
+  std::vector<bool> held;
+  Turn turn;
+  EffectList effects;
+
+  Problem() {
+    const int points = 12;
+    std::mt19937 generator(2);
+    std::normal_distribution<double> normal;
+    x.resize(3 * points + 1);
+    for (double& value : x) value = normal(generator);
+    x[3 * points] = 0;
+    for (int i = 0; i < points; ++i) blocks.push_back(3 * i);
+    blocks.push_back(3 * points);
+    held.assign(x.size(), false);
+    held[0] = held[1] = held[2] = true;   // a whole point
+    held[7] = true;                       // one coordinate of another
+    turn.point = Vector3(0.3, -0.2, 0.1);
+    turn.axis = Vector3(1, 2, -0.5).normalized();
+    turn.angle = 3 * points;
+    turn.carried = {3 * (points - 2), 3 * (points - 1)};
+    std::vector<test::Springs::Spring> springs;
+    for (int i = 0; i + 1 < points; ++i) springs.push_back({3 * i, 3 * i + 3, 1.0 + 0.1 * i, 0.7});
+    for (int i = 0; i + 5 < points; ++i) springs.push_back({3 * i + 15, 3 * i, 0.5, 1.2});
+    effects.push_back(std::make_unique<test::Springs>(springs));
+  }
+  Unknowns unknowns() const {
+    return Unknowns(blocks, static_cast<int>(x.size()), held, {turn});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("gradient and Hessian by unknowns are derivatives of the energy, turned points included") {
+  Problem problem;
+  const Unknowns unknowns = problem.unknowns();
+  CHECK(unknowns.size() == 3 * 10 - 3 - 1 + 1);
+  Assembler assembler(unknowns, problem.effects);
+  const int n = unknowns.size();
+  const auto moved = [&](const Vector& step) {
+    Vector x = problem.x;
+    unknowns.advance(x, unknowns.expand(problem.x, step));
+    return x;
+  };
+  // Along a direction from x: the energy's first and second derivative.
+  Vector gradient;
+  assembler.refresh(problem.x);
+  assembler.assemble(problem.x, Order::hessian, gradient);
+  const Vector g = unknowns.reduce(problem.x, gradient);
+  const Eigen::MatrixXd H = test::dense(assembler.hessian());
+  for (int trial = 0; trial < 5; ++trial) {
+    Vector v = Vector::Zero(n);
+    if (trial == 0)
+      v[n - 1] = 1;  // the angle alone
+    else
+      for (int i = 0; i < n; ++i) v[i] = std::sin(1.0 + i * trial);
+    double slope_error[2], curvature_error[2];
+    for (const int k : {0, 1}) {
+      const double h = k ? 5e-3 : 1e-2;
+      const double up = assembler.energy(moved(h * v)), down = assembler.energy(moved(-h * v));
+      const double here = assembler.energy(problem.x);
+      slope_error[k] = std::abs((up - down) / (2 * h) - g.dot(v));
+      curvature_error[k] = std::abs((up - 2 * here + down) / (h * h) - v.dot(H * v));
+    }
+    INFO("direction " << trial);
+    CHECK(slope_error[0] / slope_error[1] == Approx(4).epsilon(0.1));
+    CHECK(curvature_error[0] / curvature_error[1] == Approx(4).epsilon(0.1));
+  }
+}
+
+TEST_CASE("a carried point keeps its distance from the axis, however far it turns") {
+  Problem problem;
+  const Unknowns unknowns = problem.unknowns();
+  Vector dx = Vector::Zero(problem.x.size());
+  dx[problem.turn.angle] = 2.0;
+  Vector x = problem.x;
+  unknowns.advance(x, dx);
+  for (const int first : problem.turn.carried) {
+    const Vector3 before = problem.x.segment<3>(first) - problem.turn.point;
+    const Vector3 after = x.segment<3>(first) - problem.turn.point;
+    CHECK(after.norm() == Approx(before.norm()));
+    CHECK(after.dot(problem.turn.axis) == Approx(before.dot(problem.turn.axis)));
+    CHECK((after - before).norm() > 0.1);
+  }
+}
+
+TEST_CASE("the pattern is kept while it covers the stencils, and grows when it does not") {
+  Problem problem;
+  const Unknowns unknowns = problem.unknowns();
+  Assembler assembler(unknowns, problem.effects);
+  Vector gradient;
+  assembler.assemble(problem.x, Order::hessian, gradient);
+  const int version = assembler.pattern_version();
+  assembler.assemble(problem.x, Order::hessian, gradient);
+  CHECK(assembler.pattern_version() == version);
+  const double before = test::dense(assembler.hessian()).norm();
+  // A spring between points that were not coupled.
+  problem.effects.push_back(
+      std::make_unique<test::Springs>(std::vector<test::Springs::Spring>{{3, 24, 2.0, 0.1}}));
+  assembler.assemble(problem.x, Order::hessian, gradient);
+  CHECK(assembler.pattern_version() == version + 1);
+  CHECK(test::dense(assembler.hessian()).norm() != Approx(before));
+}
+
+TEST_CASE("the sums do not depend on the number of threads") {
+  std::vector<test::Springs::Spring> springs;
+  const int points = 900;
+  for (int i = 0; i + 1 < points; ++i) springs.push_back({3 * i, 3 * i + 3, 1, 0.5});
+  EffectList effects;
+  effects.push_back(std::make_unique<test::Springs>(springs));
+  std::vector<int> blocks;
+  for (int i = 0; i < points; ++i) blocks.push_back(3 * i);
+  const Unknowns unknowns(blocks, 3 * points, std::vector<bool>(3 * points, false));
+  Vector x(3 * points);
+  for (int i = 0; i < x.size(); ++i) x[i] = std::sin(0.37 * i);
+  double energy[2];
+  Vector gradient[2];
+  std::vector<double> value[2];
+  for (const int k : {0, 1}) {
+    omp_set_num_threads(k + 1);
+    Assembler assembler(unknowns, effects);
+    energy[k] = assembler.assemble(x, Order::hessian, gradient[k]);
+    value[k] = assembler.hessian().value;
+  }
+  omp_set_num_threads(omp_get_num_procs());
+  CHECK(energy[0] == energy[1]);
+  CHECK(gradient[0] == gradient[1]);
+  CHECK(value[0] == value[1]);
+}
