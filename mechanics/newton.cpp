@@ -50,7 +50,7 @@ bool direction(System& system, const Vector& g, double reach, NewtonResult& resu
       std::clamp(0.1 * g.cwiseAbs().maxCoeff() / reach, 1e-11 * largest, 1e-4 * largest);
   double shift = std::min(0.1 * system.shift, first);
   if (shift < 1e-10 * largest) shift = 0;
-  for (; shift <= 10 * largest; shift = std::max(first, 10 * shift)) {
+  for (; shift <= 100 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;
     Timed timed(system, "factorisation");
     if (!system.cholesky.factor(H, shift)) continue;
