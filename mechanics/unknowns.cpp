@@ -6,7 +6,7 @@ namespace bight {
 
 Unknowns::Unknowns(std::vector<int> blocks, int coordinates, const std::vector<bool>& held,
                    std::vector<Turn> turns)
-    : index_(held.size(), -1), turns_(std::move(turns)) {
+    : coordinates_(coordinates), index_(held.size(), -1), turns_(std::move(turns)) {
   if (!turns_.empty()) turn_of_.assign(held.size(), -1);
   for (size_t t = 0; t < turns_.size(); ++t)
     for (int first : turns_[t].carried)

@@ -29,7 +29,8 @@ class Unknowns {
 
   int size() const { return size_; }
   int blocks() const { return static_cast<int>(block_start_.size()) - 1; }
-  int coordinates() const { return static_cast<int>(index_.size()); }
+  /// Coordinates that are not internal.
+  int coordinates() const { return coordinates_; }
 
   /// Unknown number of a coordinate, -1 when held, carried or internal.
   int index(int coordinate) const { return index_[coordinate]; }
@@ -56,7 +57,7 @@ class Unknowns {
   void advance(Vector& x, const Vector& dx) const;
 
  private:
-  int size_ = 0;
+  int size_ = 0, coordinates_ = 0;
   std::vector<int> index_, turn_of_, block_start_, block_of_;
   std::vector<Turn> turns_;
 };

@@ -1,5 +1,6 @@
 #include "solid3d/run_solid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -30,12 +31,11 @@ class SolidPath : public PathModel {
             const SolidParameters& parameters)
       : mesh_(mesh),
         parameters_(parameters),
-        grip_{parameters.finish_turns},
-        pins_(pins(mesh, start, parameters)),
+        grip_(make_grip(mesh, start, parameters)),
         internal_begin_(grip_.coordinates(mesh)),
         effects_(make_effects(mesh, parameters, internal_begin_)),
-        unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()),
-                                 pins_)),
+        unknowns_(grip_.unknowns(mesh,
+                                 internal_begin_ + 2 * static_cast<int>(mesh.cells.size()))),
         assembler_(unknowns_, effects_.list),
         system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
         tension_(parameters.expected_tension) {
@@ -60,8 +60,7 @@ class SolidPath : public PathModel {
     hold_grips(x);
     grip_.move(mesh_, ebar, x);
     // The middle of a symmetric knot moves half as far as the finish.
-    if (!pins_.empty()) x[pins_[0]] = last.x[pins_[0]] - 0.5 * de;
-    if (pins_.size() > 1) x[pins_[1]] = last.x[pins_[1]];
+    move_pins(-0.5 * de, x);
     return x;
   }
 
@@ -110,13 +109,19 @@ class SolidPath : public PathModel {
       row.max_penetration = effects_.contact->max_penetration();
       row.contact_pairs = effects_.contact->stencils();
     }
-    if (grip_.finish_turns) row.end_turn = newest()[grip_.angle(mesh_)];
+    row.end_turn = grip_.turn(mesh_, newest());
     row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     return row;
   }
 
   SolidState state(double ebar) {
+    // Seen from the clamped start.
     SolidState s = fields(mesh_, effects_, newest());
+    const Matrix3 back =
+        Eigen::AngleAxisd(-grip_.start_turn(mesh_, newest()), Vector3::UnitZ()).toRotationMatrix();
+    const Vector3 axis = s.centerline.front();
+    for (Polyline* points : {&s.nodes, &s.centerline})
+      for (Vector3& p : *points) p = axis + back * (p - axis);
     s.ebar = ebar;
     s.tension = tension_;
     s.energy_by_effect = assembler_.energy_by_effect();
@@ -137,46 +142,65 @@ class SolidPath : public PathModel {
   const Vector& newest() const { return history_.back().x; }
 
   /// Without friction the knot may slide along the rod and, where the finish turns, revolve about
-  /// the pulling axis (the rod rolls the other way) at no cost but what the mesh is uneven by. Both
-  /// are stopped at the centre point that is farthest from the axis: one coordinate across its
-  /// radius, and z. A choice of place and angle among equals.
-  static std::vector<int> pins(const Mesh& mesh, const std::vector<Vector3>& start,
-                               const SolidParameters& parameters) {
-    const Vector3& axis = start[mesh.node(0, mesh.section.centre[0])];
-    double farthest = 0.1;  // a straight rod needs no pin [D]
-    std::vector<int> coordinates;
-    for (int k = 1; k + 1 < mesh.layers(); ++k) {
-      const int node = mesh.node(k, mesh.section.centre[0]);
-      const Vector2 radius = (start[node] - axis).head<2>();
-      if (radius.norm() <= farthest) continue;
-      farthest = radius.norm();
-      coordinates = {3 * node + 2};
-      if (parameters.finish_turns)
-        coordinates.push_back(3 * node + (std::abs(radius.x()) > std::abs(radius.y()) ? 1 : 0));
-    }
-    return coordinates;
+  /// the pulling axis while the rod rolls about its own, at no cost but what the mesh is uneven by.
+  /// Each is stopped at the middle section: its centre along z and across its radius, and a point
+  /// of its x axis sideways. A choice of place and angles among equals: in the middle of a
+  /// symmetric knot the pins carry no force; what the one along z carries elsewhere is seen as a
+  /// difference of the end tensions.
+  static Grip make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
+                        const SolidParameters& parameters) {
+    constexpr double off_axis = 0.3;  // of a section that can be pinned [D]
+    Grip grip{parameters.finish_turns, false, {}};
+    const auto centre = [&](int layer) {
+      return start[mesh.node(layer, mesh.section.centre[0])];
+    };
+    const auto radius = [&](int layer) { return Vector2((centre(layer) - centre(0)).head<2>()); };
+    int layer = mesh.layers() / 2;
+    if (radius(layer).norm() < off_axis)
+      for (int k = 0; k < mesh.layers(); ++k)
+        if (radius(k).norm() > radius(layer).norm()) layer = k;
+    if (radius(layer).norm() < off_axis) return grip;
+    const int at = 3 * mesh.node(layer, mesh.section.centre[0]);
+    grip.pinned = {at + 2};
+    if (!parameters.finish_turns) return grip;
+    const Vector2 r = radius(layer).cwiseAbs();
+    grip.pinned.push_back(at + (r.x() > r.y() ? 1 : 0));
+
+    int outermost = mesh.section.rim[0];
+    for (int p : mesh.section.rim)
+      if (mesh.section.points[p].x() > mesh.section.points[outermost].x() + 1e-9) outermost = p;
+    const int point = mesh.node(layer, outermost);
+    const Vector3 tangent = centre(layer + 1) - centre(layer - 1);
+    const Vector3 sideways = tangent.cross(start[point] - centre(layer)).cwiseAbs();
+    int axis = 0;
+    sideways.maxCoeff(&axis);
+    grip.pinned.push_back(3 * point + axis);
+    grip.start_turns = true;
+    return grip;
   }
 
   /// Sections move rigidly through the exponential map, the turned finish about its axis.
   void advance(Vector& x, const Vector& dx) const {
     const Vector before = x;
     advance_sections(mesh_, x, dx);
-    for (const Turn& turn : unknowns_.turns()) {
-      Vector finish = before;
-      unknowns_.advance(finish, dx);
-      for (int first : turn.carried) x.segment<3>(first) = finish.segment<3>(first);
-    }
+    Vector turned = before;
+    unknowns_.advance(turned, dx);
+    for (const Turn& turn : unknowns_.turns())
+      for (int first : turn.carried) x.segment<3>(first) = turned.segment<3>(first);
     hold_grips(x, before);
   }
 
-  /// Held sections exactly as they were.
+  /// The middle of a symmetric knot moves half as far along z as the finish.
+  void move_pins(double along_z, Vector& x) const {
+    for (int c : grip_.pinned)
+      if (c % 3 == 2) x[c] += along_z;
+  }
+
+  /// Held coordinates exactly as they were.
   void hold_grips(Vector& x) const { hold_grips(x, newest()); }
   void hold_grips(Vector& x, const Vector& as) const {
-    for (int pin : pins_) x[pin] = as[pin];
-    x.head(3 * mesh_.points_per_layer()) = as.head(3 * mesh_.points_per_layer());
-    const int last = 3 * mesh_.node(mesh_.layers() - 1, 0);
-    if (!grip_.finish_turns)
-      x.segment(last, 3 * mesh_.points_per_layer()) = as.segment(last, 3 * mesh_.points_per_layer());
+    for (int c = 0; c < unknowns_.coordinates(); ++c)
+      if (unknowns_.index(c) < 0 && unknowns_.turn_of(c) < 0) x[c] = as[c];
   }
 
   /// Tangent predictor: the linear answer of the last tangent to the motion of the finish.
@@ -187,7 +211,7 @@ class SolidPath : public PathModel {
     Vector moved = last.x, gradient;
     const double towards = de > 0 ? probe : -probe;
     grip_.move(mesh_, last.ebar + towards, moved);
-    if (!pins_.empty()) moved[pins_[0]] -= 0.5 * towards;
+    move_pins(-0.5 * towards, moved);
     assembler_.assemble(moved, Order::gradient, gradient);
     const Vector rate = (unknowns_.reduce(moved, gradient) -
                          unknowns_.reduce(last.x, last.gradient)) / towards;
@@ -200,7 +224,6 @@ class SolidPath : public PathModel {
   const Mesh& mesh_;
   const SolidParameters& parameters_;
   Grip grip_;
-  std::vector<int> pins_;
   int internal_begin_;
   SolidEffects effects_;
   Unknowns unknowns_;
