@@ -200,10 +200,10 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     row.max_penetration = max_penetration(points);
     row.contact_pairs = static_cast<int>(points.size());
     const double aimed = aimed_share * parameters_.penetration;
-    // Mostly with the tension, which is smooth along the path: the largest overlap is not, as it
-    // depends on where the samples lie, and the extrapolation would feel it.
+    // Mostly with the tension, which is smooth along the path: the largest overlap is less so, as
+    // it depends on where the samples lie, and the extrapolation would feel it.
     stiffness_ = effects_.contact->law().stiffness * tightening *
-                 std::pow(std::clamp(row.max_penetration / aimed, 0.25, 4.0), 0.1);
+                 std::pow(std::clamp(row.max_penetration / aimed, 0.25, 4.0), 0.3);
   }
   choose_pin(result.x);
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();

@@ -27,17 +27,60 @@ void place(const SegmentSamples& samples, const double* nodes, Points& points) {
     points[i] = x * Eigen::Map<const Eigen::Vector4d>(samples.value[i].data());
 }
 
-/// Calls `visit(i, j, d, distance)` for the points that touch, d from j to i.
+/// Calls `visit(i, j, d, distance)` for all p[i] and q[j] nearer than `reach`, d from j to i. Looking
+/// at all of a row at once is faster than being clever: it is done in vector registers.
+template <class Visit>
+void for_near(const Points& p, const Points& q, double reach, Visit&& visit) {
+  thread_local Eigen::ArrayXd x, y, z, square;
+  const auto n = static_cast<Eigen::Index>(q.size());
+  x.resize(n), y.resize(n), z.resize(n), square.resize(n);
+  for (Eigen::Index j = 0; j < n; ++j) x[j] = q[j].x(), y[j] = q[j].y(), z[j] = q[j].z();
+  const double limit = reach * reach;
+  for (size_t i = 0; i < p.size(); ++i) {
+    square = (x - p[i].x()).square() + (y - p[i].y()).square() + (z - p[i].z()).square();
+    if (square.minCoeff() >= limit) continue;
+    for (Eigen::Index j = 0; j < n; ++j)
+      if (square[j] < limit)
+        visit(i, static_cast<size_t>(j), Vector3(p[i] - q[j]), std::sqrt(square[j]));
+  }
+}
+
+/// The same for the points that touch, `apart` along the rod at least.
 template <class Visit>
 void for_touching(const SegmentSamples& a, const SegmentSamples& b, const Points& p, const Points& q,
                   const ContactLaw& law, double apart, Visit&& visit) {
-  const double reach = 1 + 0.5 * law.onset, square = reach * reach;
-  for (size_t i = 0; i < p.size(); ++i)
-    for (size_t j = 0; j < q.size(); ++j) {
-      const Vector3 d = p[i] - q[j];
-      const double here = d.squaredNorm();
-      if (here < square && std::abs(a.arc[i] - b.arc[j]) > apart) visit(i, j, d, std::sqrt(here));
-    }
+  for_near(p, q, 1 + 0.5 * law.onset, [&](size_t i, size_t j, const Vector3& d, double distance) {
+    if (std::abs(a.arc[i] - b.arc[j]) > apart) visit(i, j, d, distance);
+  });
+}
+
+/// What presses on one point: sums over the points of the other segment.
+struct PointSums {
+  bool touches = false;
+  Vector3 force = Vector3::Zero();
+  Matrix3 stiffness = Matrix3::Zero();
+  /// Stiffness by nodes of the other segment (rows) and by the entries of a 3 x 3 block.
+  Eigen::Matrix<double, 4, 9> across = Eigen::Matrix<double, 4, 9>::Zero();
+};
+
+/// Adds what presses on the points of one segment to the rows of its four nodes, from `first` on.
+void collect(const SegmentSamples& samples, const std::vector<PointSums>& sums, int first,
+             Order order, Element<24>& out) {
+  Eigen::Matrix<double, 16, 9> stiffness = Eigen::Matrix<double, 16, 9>::Zero();
+  for (size_t i = 0; i < sums.size(); ++i) {
+    if (!sums[i].touches) continue;
+    const Eigen::Map<const Eigen::Vector4d> w(samples.value[i].data());
+    for (int k = 0; k < 4; ++k) out.gradient.segment<3>(first + 3 * k) += w[k] * sums[i].force;
+    if (order == Order::gradient) continue;
+    const Eigen::Matrix4d ww = w * w.transpose();
+    stiffness += Eigen::Map<const Eigen::Matrix<double, 16, 1>>(ww.data()) *
+                 Eigen::Map<const Eigen::Matrix<double, 1, 9>>(sums[i].stiffness.data());
+  }
+  if (order == Order::gradient) return;
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < 4; ++l)
+      for (int c = 0; c < 9; ++c)
+        out.hessian(first + 3 * k + c % 3, first + 3 * l + c / 3) = stiffness(4 * l + k, c);
 }
 
 }  // namespace
@@ -47,25 +90,44 @@ Element<24> contact_element(const Eigen::Matrix<double, 24, 1>& x, const Segment
                             Order order) {
   Element<24> out;
   thread_local Points p, q;
+  thread_local std::vector<PointSums> sums_p, sums_q;
   place(a, x.data(), p);
   place(b, x.data() + 12, q);
+  sums_p.assign(p.size(), {}), sums_q.assign(q.size(), {});
   const double weight = a.spacing * b.spacing;
+  // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They are
+  // summed by points first, which share their nodes' weights.
   for_touching(a, b, p, q, law, apart, [&](size_t i, size_t j, const Vector3& d, double distance) {
     const double gap = distance - 1;
     out.energy += weight * law.energy(gap);
     if (order == Order::energy) return;
     const Vector3 n = d / distance;
     const double slope = weight * law.slope(gap), curvature = weight * law.curvature(gap);
-    double w[8];
-    for (int k = 0; k < 4; ++k) w[k] = a.value[i][k], w[4 + k] = -b.value[j][k];
-    for (int k = 0; k < 8; ++k) out.gradient.segment<3>(3 * k) += (slope * w[k]) * n;
+    sums_p[i].touches = sums_q[j].touches = true;
+    sums_p[i].force += slope * n;
+    sums_q[j].force -= slope * n;
     if (order == Order::gradient) return;
-    // d2 gap/dp dp = (I - n n')/distance
     const Matrix3 m = (curvature - slope / distance) * n * n.transpose() +
                       (slope / distance) * Matrix3::Identity();
-    for (int l = 0; l < 8; ++l)
-      for (int k = 0; k < 8; ++k) out.hessian.block<3, 3>(3 * k, 3 * l) += (w[k] * w[l]) * m;
+    sums_p[i].stiffness += m;
+    sums_q[j].stiffness += m;
+    sums_p[i].across += Eigen::Map<const Eigen::Vector4d>(b.value[j].data()) *
+                        Eigen::Map<const Eigen::Matrix<double, 1, 9>>(m.data());
   });
+  if (order == Order::energy) return out;
+  collect(a, sums_p, 0, order, out);
+  collect(b, sums_q, 12, order, out);
+  if (order == Order::gradient) return out;
+  Eigen::Matrix<double, 4, 36> across = Eigen::Matrix<double, 4, 36>::Zero();
+  for (size_t i = 0; i < p.size(); ++i)
+    if (sums_p[i].touches)
+      across += Eigen::Map<const Eigen::Vector4d>(a.value[i].data()) *
+                Eigen::Map<const Eigen::Matrix<double, 1, 36>>(sums_p[i].across.data());
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < 4; ++l)
+      for (int c = 0; c < 9; ++c)
+        out.hessian(3 * k + c % 3, 12 + 3 * l + c / 3) = -across(k, 4 * c + l);
+  out.hessian.bottomLeftCorner<12, 12>() = out.hessian.topRightCorner<12, 12>().transpose();
   return out;
 }
 
@@ -114,10 +176,11 @@ double Contact::smallest_gap(const Vector& x, const Pair& at) const {
   Eigen::Matrix<double, 24, 1> values;
   for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]];
   place(samples_[at.a], values.data(), p), place(samples_[at.b], values.data() + 12, q);
-  double square = std::numeric_limits<double>::infinity();
-  for (const Vector3& here : p)
-    for (const Vector3& there : q) square = std::min(square, (here - there).squaredNorm());
-  return std::sqrt(square) - 1;
+  double smallest = 1 + pattern_gap;
+  for_near(p, q, smallest, [&](size_t, size_t, const Vector3&, double distance) {
+    smallest = std::min(smallest, distance);
+  });
+  return smallest - 1;
 }
 
 void Contact::refresh(const Vector& x) {

@@ -64,7 +64,7 @@ class Contact final : public Effect {
  private:
   struct Pair {
     int a, b;
-    double gap;  ///< between quadrature points, or less
+    double gap;  ///< between quadrature points where it is small, otherwise less than that
     std::array<int, 24> coordinates;
   };
   Pair pair(int a, int b) const;

@@ -72,6 +72,7 @@ TEST_CASE("a step that fails is cut, and steps grow again where it is easy") {
   const PathOutcome outcome = follow(path, model, seen.observer);
   CHECK(outcome.status == PathStatus::finished);
   CHECK(outcome.cutbacks > 0);
+  CHECK(outcome.cutbacks < 8);  // halved, not nibbled at
   double smallest = 1, last = 0;
   bool reason = false;
   for (const StepRow& row : seen.rows) {
