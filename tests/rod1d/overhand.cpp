@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "mechanics/knot_type.h"
 #include "rod1d/measure.h"
 #include "rod1d/polyline.h"
@@ -39,4 +41,19 @@ TEST_CASE("writhe: none in the plane, opposite for the mirror image, the same fo
   CHECK(std::abs(value) > 2);
   CHECK(writhe(mirror) == Approx(-value));
   CHECK(writhe(overhand_start(42.17, 28, 800)) == Approx(value).epsilon(2e-3));
+}
+
+TEST_CASE("writhe of a helix: 1 - sin(pitch angle) for every turn") {
+  // Fuller, PNAS 68, 815 (1971); the difference of two lengths is free of what the ends do.
+  const double rise = 0.8, angle = std::atan(rise);  // per radian, radius 1
+  const auto helix = [&](int turns) {
+    Polyline line;
+    for (int i = 0; i <= 40 * turns; ++i) {
+      const double phase = 2 * M_PI * i / 40;
+      line.push_back({std::cos(phase), std::sin(phase), rise * phase});
+    }
+    return line;
+  };
+  const double difference = writhe(helix(30)) - writhe(helix(15));
+  CHECK(std::abs(difference) == Approx(15 * (1 - std::sin(angle))).epsilon(0.01));
 }
