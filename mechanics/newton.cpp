@@ -30,7 +30,7 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient) 
 }
 
 /// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite. Elsewhere it
-/// begins at a tenth of the last one, but no higher than in proportion to the residual, and grows
+/// begins at a hundredth of the last one, but no higher than in proportion to the residual, and grows
 /// until the factorisation succeeds: along a solve it decays to zero. Dropping it at once lets the
 /// soft modes run far off. False when no shift in range does.
 bool direction(System& system, const Vector& g, double reach, NewtonResult& result, Vector& step) {
@@ -48,7 +48,7 @@ bool direction(System& system, const Vector& g, double reach, NewtonResult& resu
   }
   const double first =
       std::clamp(0.1 * g.cwiseAbs().maxCoeff() / reach, 1e-11 * largest, 1e-4 * largest);
-  double shift = std::min(0.1 * system.shift, first);
+  double shift = std::min(0.01 * system.shift, first);
   if (shift < 1e-10 * largest) shift = 0;
   for (; shift <= 100 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;

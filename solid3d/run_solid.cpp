@@ -22,6 +22,7 @@ constexpr double energy_rise = 0.3;
 constexpr int max_iterations = 60;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
+constexpr size_t kept_states = 3;  ///< for the predictor
 
 using Clock = std::chrono::steady_clock;
 
@@ -43,20 +44,17 @@ class SolidPath : public PathModel {
     // small volume errors of the sweep.
     Vector x = Vector::Zero(internal_begin_ + 2 * static_cast<int>(mesh.cells.size()));
     for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = start[n];
-    history_.push_back({start_ebar, std::move(x), {}});
+    history_.push_back({start_ebar, std::move(x)});
     determinant_ = knot_determinant(centerline(mesh, newest()));
     system_.advance = [this](Vector& state, const Vector& dx) { advance(state, dx); };
   }
 
   Vector predict(double ebar) const override {
-    const Accepted& last = history_.back();
+    const Station& last = history_.back();
     Vector x = last.x;
     const double de = ebar - last.ebar;
-    if (de != 0 && history_.size() > 1 && last.ebar != history_.front().ebar)
-      x = extrapolate_sections(mesh_, history_.front().x, x,
-                               de / (last.ebar - history_.front().ebar));
-    else if (de != 0)
-      x = follow_grip(ebar);
+    if (de != 0)
+      x = history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar);
     hold_grips(x);
     grip_.move(mesh_, ebar, x);
     // The middle of a symmetric knot moves half as far as the finish.
@@ -90,8 +88,14 @@ class SolidPath : public PathModel {
   }
 
   StepRow accept(const NewtonResult& result, double ebar) override {
-    if (history_.size() > 1 || history_.back().ebar == ebar) history_.erase(history_.begin());
-    history_.push_back({ebar, result.x, result.gradient});
+    // A turn of the path or a state at the same ebar gives no rate to go on with.
+    if (history_.back().ebar == ebar) history_.pop_back();
+    if (history_.size() > 1 &&
+        (ebar - history_.back().ebar) * (history_.back().ebar - history_.front().ebar) < 0)
+      history_.erase(history_.begin(), history_.end() - 1);
+    if (history_.size() == kept_states) history_.erase(history_.begin());
+    history_.push_back({ebar, result.x});
+    gradient_ = result.gradient;
     const auto tension = grip_.tension(mesh_, result.gradient);
     tension_ = std::max(std::abs(tension.finish), 1e-6);
 
@@ -134,11 +138,6 @@ class SolidPath : public PathModel {
   void observe(NewtonObserver observer) { observer_ = std::move(observer); }
 
  private:
-  struct Accepted {
-    double ebar;
-    Vector x, gradient;
-  };
-
   const Vector& newest() const { return history_.back().x; }
 
   /// Without friction the knot may slide along the rod and, where the finish turns, revolve about
@@ -205,7 +204,7 @@ class SolidPath : public PathModel {
 
   /// Tangent predictor: the linear answer of the last tangent to the motion of the finish.
   Vector follow_grip(double ebar) const {
-    const Accepted& last = history_.back();
+    const Station& last = history_.back();
     constexpr double probe = 1e-6;  // [D]
     const double de = ebar - last.ebar;
     Vector moved = last.x, gradient;
@@ -214,7 +213,7 @@ class SolidPath : public PathModel {
     move_pins(-0.5 * towards, moved);
     assembler_.assemble(moved, Order::gradient, gradient);
     const Vector rate = (unknowns_.reduce(moved, gradient) -
-                         unknowns_.reduce(last.x, last.gradient)) / towards;
+                         unknowns_.reduce(last.x, gradient_)) / towards;
     const Vector step = -de * cholesky_.solve(rate);
     Vector x = last.x;
     advance(x, unknowns_.expand(x, step));
@@ -232,7 +231,8 @@ class SolidPath : public PathModel {
   System system_;
   double tension_;
   int determinant_ = 0;
-  std::vector<Accepted> history_;  ///< the last two accepted states, newest last
+  std::vector<Station> history_;  ///< the last accepted states, newest last
+  Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;
   Clock::time_point begin_ = Clock::now();
 };

@@ -74,26 +74,47 @@ void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx) {
   x.tail(x.size() - behind) += dx.tail(x.size() - behind);
 }
 
-Vector extrapolate_sections(const Mesh& mesh, const Vector& before, const Vector& now,
-                            double ratio) {
-  const auto old_places = section_places(mesh, before), places = section_places(mesh, now);
-  Vector x = now;
-  const int per_layer = mesh.points_per_layer();
+/// Rates of a section's motion in its own frame, per unit of ebar.
+struct Screw {
+  Vector3 turn, shift;
+};
+
+Screw screw(const SectionPlace& from, const SectionPlace& to, double de) {
+  return {logarithm(from.rotation.transpose() * to.rotation) / de,
+          from.rotation.transpose() * (to.centre - from.centre) / de};
+}
+
+Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states, double ebar) {
+  const Station &now = states.back(), &before = states[states.size() - 2];
+  const double de = ebar - now.ebar, last = now.ebar - before.ebar;
+  const auto places = section_places(mesh, now.x), old = section_places(mesh, before.x);
+  std::vector<SectionPlace> oldest;
+  double first = 0, blend = 0;
+  if (states.size() > 2) {
+    const Station& s = states[states.size() - 3];
+    oldest = section_places(mesh, s.x);
+    first = before.ebar - s.ebar;
+    // Rates belong to the middles of the steps: linear extrapolation to the middle of the next.
+    blend = (de + last) / (last + first);
+  }
+  Vector x = now.x;
   for (int k = 0; k < mesh.layers(); ++k) {
-    const Matrix3& R0 = old_places[k].rotation;
-    const Matrix3& R1 = places[k].rotation;
-    const Matrix3 turn =
-        R1 * exponential(ratio * logarithm(R0.transpose() * R1)) * R1.transpose();
-    const Vector3 shift =
-        ratio * R1 * R0.transpose() * (places[k].centre - old_places[k].centre);
-    for (int p = 0; p < per_layer; ++p) {
+    Screw rate = screw(old[k], places[k], last);
+    if (!oldest.empty()) {
+      const Screw earlier = screw(oldest[k], old[k], first);
+      rate.turn += blend * (rate.turn - earlier.turn);
+      rate.shift += blend * (rate.shift - earlier.shift);
+    }
+    const Matrix3& R = places[k].rotation;
+    const Matrix3 turn = R * exponential(de * rate.turn) * R.transpose();
+    const Vector3 shift = R * (de * rate.shift);
+    for (int p = 0; p < mesh.points_per_layer(); ++p) {
       auto node = x.segment<3>(3 * mesh.node(k, p));
       node = (places[k].centre + shift + turn * (node - places[k].centre)).eval();
     }
   }
-  const Eigen::Index behind = 3 * static_cast<Eigen::Index>(mesh.nodes());
-  x.tail(x.size() - behind) +=
-      ratio * (now.tail(x.size() - behind) - before.tail(x.size() - behind));
+  const Eigen::Index behind = x.size() - 3 * static_cast<Eigen::Index>(mesh.nodes());
+  x.tail(behind) += de / last * (now.x.tail(behind) - before.x.tail(behind));
   return x;
 }
 

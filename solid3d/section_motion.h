@@ -20,9 +20,15 @@ std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x);
 /// update inflates a section that turns by theta by theta^2/2, which incompressibility punishes.
 void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx);
 
-/// Repeats the motion before -> now of each section in its own frame, times `ratio` (a screw; in
-/// Cartesian coordinates the same extrapolation is worse than none).
-Vector extrapolate_sections(const Mesh& mesh, const Vector& before, const Vector& now,
-                            double ratio);
+/// A state and the ebar it belongs to.
+struct Station {
+  double ebar;
+  Vector x;
+};
+
+/// Guess for `ebar` from the last two or three accepted states (newest last): every section goes on
+/// along its own screw, at the rate that the last steps had, extrapolated. (In Cartesian coordinates
+/// the same extrapolation is worse than none.)
+Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states, double ebar);
 
 }  // namespace bight::solid3d
