@@ -1,7 +1,6 @@
 #include "mechanics/knot_type.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -22,7 +21,8 @@ Polyline close_far_away(const Polyline& centerline) {
   const double far = 20 * (high - low).norm();
   const size_t n = centerline.size();
   const Vector3 begin = centerline[0] + far * (centerline[0] - centerline[1]).normalized();
-  const Vector3 end = centerline[n - 1] + far * (centerline[n - 1] - centerline[n - 2]).normalized();
+  const Vector3 end =
+      centerline[n - 1] + far * (centerline[n - 1] - centerline[n - 2]).normalized();
   const Vector3 aside = 2 * far * (end - begin).unitOrthogonal();
   Polyline closed = centerline;
   closed.insert(closed.end(), {end, end + aside, begin + aside, begin});

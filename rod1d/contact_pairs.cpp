@@ -65,7 +65,8 @@ class ArcTree {
 
   bool near(int i, int j) const {
     if (arc_[j + 1] - arc_[i] < exclusion_) return false;
-    const double half_lengths = 0.5 * ((node(i + 1) - node(i)).norm() + (node(j + 1) - node(j)).norm());
+    const double half_lengths =
+        0.5 * ((node(i + 1) - node(i)).norm() + (node(j + 1) - node(j)).norm());
     const double limit = reach_ + half_lengths;
     return (node(i) + node(i + 1) - node(j) - node(j + 1)).squaredNorm() < 4 * limit * limit;
   }

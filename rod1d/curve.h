@@ -56,7 +56,9 @@ class CurveSegment {
 
 /// Segment i of a rod's centerline.
 inline CurveSegment curve_segment(const Rod& rod, int i) {
-  const auto length = [&](int k) { return k < 0 || k >= rod.segments() ? 0.0 : rod.rest_length[k]; };
+  const auto length = [&](int k) {
+    return k < 0 || k >= rod.segments() ? 0.0 : rod.rest_length[k];
+  };
   return CurveSegment(length(i - 1), length(i), length(i + 1));
 }
 

@@ -1,7 +1,6 @@
 #include "rod1d/measure.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -12,10 +12,10 @@ namespace bight::rod1d {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double braid_radius = 0.68;   ///< of each strand about the z axis [D]
-constexpr double shortest_tail = 0.8;   ///< straight, on the axis [D]
-constexpr double corner_width = 0.3;    ///< over which corners are rounded [D]
-constexpr double spacing = 0.1;         ///< of the points while shaping [D]
+constexpr double braid_radius = 0.68;  ///< of each strand about the z axis [D]
+constexpr double shortest_tail = 0.8;  ///< straight, on the axis [D]
+constexpr double corner_width = 0.3;   ///< over which corners are rounded [D]
+constexpr double spacing = 0.1;        ///< of the points while shaping [D]
 
 /// Half the height of the braid around which a loop of radius R closes: grows as sqrt(R), as in the
 /// matched asymptotic solution of Audoly et al. 2007.
@@ -23,8 +23,8 @@ double half_braid(double R) { return 1.25 * std::sqrt(R); }
 /// Height over which a tail comes from the axis to the braid: the loop must have left by then.
 double lead(double R) { return 0.75 * std::sqrt(R); }
 
-/// The knot without tails, from axis to axis: into the braid on the -x side, three half-turns, round
-/// the loop on the +x side, three half-turns, out on the -x side.
+/// The knot without tails, from axis to axis: into the braid on the -x side, three half-turns,
+/// round the loop on the +x side, three half-turns, out on the -x side.
 Polyline shape(double R) {
   const double b = half_braid(R), r = braid_radius, top = b + lead(R);
   Polyline line{{0, 0, -top - shortest_tail}, {0, 0, -top}};

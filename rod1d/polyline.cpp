@@ -1,7 +1,6 @@
 #include "rod1d/polyline.h"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +59,8 @@ double distance(const Vector3& p, const Vector3& p_end, const Vector3& q, const 
   const Vector3 u = p_end - p, v = q_end - q, r = p - q;
   const double a = u.squaredNorm(), e = v.squaredNorm(), b = u.dot(v), c = u.dot(r), f = v.dot(r);
   const double denominator = a * e - b * b;
-  double s = denominator > 1e-12 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.5;
+  double s =
+      denominator > 1e-12 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.5;
   const double t = std::clamp((b * s + f) / e, 0.0, 1.0);
   s = std::clamp((b * t - c) / a, 0.0, 1.0);
   return (r + s * u - t * v).norm();

@@ -13,7 +13,7 @@ namespace bight::rod1d {
 /// The state is one vector: positions of the nodes, three each, then, where twist is simulated, the
 /// twist angles of the segments.
 struct Rod {
-  std::vector<double> rest_length;  ///< of the segments [D]
+  std::vector<double> rest_length;                     ///< of the segments [D]
   double stretching_stiffness = std::numbers::pi / 4;  ///< EA [E D^2]
   double bending_stiffness = std::numbers::pi / 64;    ///< B [E D^4]
   double twisting_stiffness = 0;                       ///< C = B/(1 + nu) [E D^4]

@@ -42,7 +42,8 @@ struct RodModel::Equations {
   SparseCholesky cholesky;
   System system;
 
-  Equations(const std::vector<int>& blocks, const std::vector<bool>& held, const EffectList& effects)
+  Equations(const std::vector<int>& blocks, const std::vector<bool>& held,
+            const EffectList& effects)
       : unknowns(blocks, static_cast<int>(held.size()), held),
         assembler(unknowns, effects),
         system{assembler, cholesky, Ordering::dissection,
@@ -70,10 +71,10 @@ RodModel::~RodModel() = default;
 
 /// Two motions cost a round rod without friction nothing, or next to nothing, and would be left to
 /// round-off: turning about the axis as a whole, and sliding of the knot along the rod (its energy
-/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). One node, far from the axis,
-/// is held across its radius against the first and, if the rod is knotted, along the axis against
-/// the second. A turn does no work, so that reaction is zero; the other one is what the ends' tensions
-/// differ by: zero for a knot that is symmetric about its middle node.
+/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). One node, far from the
+/// axis, is held across its radius against the first and, if the rod is knotted, along the axis
+/// against the second. A turn does no work, so that reaction is zero; the other one is what the
+/// ends' tensions differ by: zero for a knot that is symmetric about its middle node.
 void RodModel::choose_pin(const Vector& x) {
   const auto across = [&](int node) { return x.segment<2>(Rod::position(node)).cwiseAbs(); };
   if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
@@ -93,8 +94,8 @@ void RodModel::choose_pin(const Vector& x) {
   equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
 }
 
-/// dx/debar of the newest state: H dx = -dg/dgrips, with the grips' effect on the gradient g taken by
-/// a central difference.
+/// dx/debar of the newest state: H dx = -dg/dgrips, with the grips' effect on the gradient g taken
+/// by a central difference.
 Vector RodModel::tangent(double ebar) const {
   const Accepted& now = accepted_.back();
   Assembler& assembler = equations_->assembler;

@@ -52,10 +52,10 @@ class RodModel final : public PathModel {
     int node = -1, axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius
   };
   Pin pin_;
-  double stiffness_ = 0;             ///< of contact, where the next solve begins
-  double force_scale_;               ///< tension expected [E D^2]
-  std::vector<Accepted> accepted_;   ///< the newest few, newest last
-  double tension_ = 0;               ///< of the newest accepted state
+  double stiffness_ = 0;            ///< of contact, where the next solve begins
+  double force_scale_;              ///< tension expected [E D^2]
+  std::vector<Accepted> accepted_;  ///< the newest few, newest last
+  double tension_ = 0;              ///< of the newest accepted state
   std::map<std::string, double> energy_by_effect_;
   std::chrono::steady_clock::time_point began_;
 };

@@ -12,30 +12,30 @@ namespace bight::rod1d {
 
 /// Everything the rod fidelity needs, in units of D and E (mechanics/types.h).
 struct RodParameters {
-  double length = 42.17;         ///< L0 / D
-  double poissons_ratio = 0.5;   ///< B/C = 1 + nu
-  Polyline start;                ///< tied start: any centerline of about the right length, ends along z
-  bool finish_turns = true;      ///< finish end free to turn about the pulling axis
+  double length = 42.17;        ///< L0 / D
+  double poissons_ratio = 0.5;  ///< B/C = 1 + nu
+  Polyline start;            ///< tied start: any centerline of about the right length, ends along z
+  bool finish_turns = true;  ///< finish end free to turn about the pulling axis
   bool contact = true;
-  bool twist = false;            ///< twist angles are unknowns
-  double friction = 0;           ///< Coulomb coefficient; 0: no friction effect
+  bool twist = false;   ///< twist angles are unknowns
+  double friction = 0;  ///< Coulomb coefficient; 0: no friction effect
   int segments = 340;
-  double penetration = 0.002;    ///< largest overlap aimed at [D]
+  double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
 };
 
 /// A recorded equilibrium of the rod: what the sweep and the writers need.
 struct RodState {
   double ebar = 0;
-  Polyline nodes;                       ///< centerline [D]
-  std::vector<double> s;                ///< undeformed arc length of the nodes [D]
-  std::vector<double> curvature;        ///< kappa D at the nodes
-  std::vector<double> stretch;          ///< deformed over undeformed length, per segment
-  std::vector<double> twist_angle;      ///< of the segments [rad]; empty without twist
-  std::vector<double> contact_force;    ///< contact force per length at the nodes [E D]
-  double tension = 0;                   ///< [E D^2]
+  Polyline nodes;                     ///< centerline [D]
+  std::vector<double> s;              ///< undeformed arc length of the nodes [D]
+  std::vector<double> curvature;      ///< kappa D at the nodes
+  std::vector<double> stretch;        ///< deformed over undeformed length, per segment
+  std::vector<double> twist_angle;    ///< of the segments [rad]; empty without twist
+  std::vector<double> contact_force;  ///< contact force per length at the nodes [E D]
+  double tension = 0;                 ///< [E D^2]
   double writhe = 0;
-  int determinant = 0;                  ///< of the closed centerline: 1 unknot, 3 overhand, 5 figure-eight
+  int determinant = 0;  ///< of the closed centerline: 1 unknot, 3 overhand, 5 figure-eight
   std::map<std::string, double> energy_by_effect;  ///< [E D^3]
 };
 
@@ -48,10 +48,10 @@ struct RodObserver {
 struct RodResult {
   PathOutcome outcome;
   std::vector<StepRow> steps;
-  std::vector<RodState> states;          ///< one per recorded ebar reached
+  std::vector<RodState> states;  ///< one per recorded ebar reached
   int unknowns = 0;
-  std::vector<std::string> effects;      ///< names of the effects that were simulated
-  std::map<std::string, double> seconds; ///< wall seconds by phase: tie, path, ...
+  std::vector<std::string> effects;       ///< names of the effects that were simulated
+  std::map<std::string, double> seconds;  ///< wall seconds by phase: tie, path, ...
 };
 
 /// Relaxes the start to equilibrium at the first waypoint, then follows the path.

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
@@ -78,20 +77,22 @@ inline void check_derivatives(Effect& effect, const Vector& x, int coordinates,
     const double stiffness = here.product.cwiseAbs().sum() + near.product.cwiseAbs().sum();
     const double size = 1 + x.cwiseAbs().maxCoeff();
     const std::string name(effect.name());
-    order.check(name + ", gradient",
-                [&](double h) {
-                  const double difference =
-                      evaluate(effect, x + h * v, v).energy - evaluate(effect, x - h * v, v).energy;
-                  return std::abs(difference / (2 * h) - here.gradient.dot(v));
-                },
-                [&](double h) { return 1e-14 * (energies + size * forces) / h; });
-    order.check(name + ", Hessian",
-                [&](double h) -> double {
-                  const Vector difference = evaluate(effect, x + h * v, v).gradient -
-                                            evaluate(effect, x - h * v, v).gradient;
-                  return (difference / (2 * h) - here.product).norm();
-                },
-                [&](double h) { return 1e-14 * (forces + size * stiffness) / h; });
+    order.check(
+        name + ", gradient",
+        [&](double h) {
+          const double difference =
+              evaluate(effect, x + h * v, v).energy - evaluate(effect, x - h * v, v).energy;
+          return std::abs(difference / (2 * h) - here.gradient.dot(v));
+        },
+        [&](double h) { return 1e-14 * (energies + size * forces) / h; });
+    order.check(
+        name + ", Hessian",
+        [&](double h) -> double {
+          const Vector difference =
+              evaluate(effect, x + h * v, v).gradient - evaluate(effect, x - h * v, v).gradient;
+          return (difference / (2 * h) - here.product).norm();
+        },
+        [&](double h) { return 1e-14 * (forces + size * stiffness) / h; });
   }
 }
 

@@ -9,10 +9,10 @@ namespace bight::rod1d {
 ///
 ///   W = 1/2 B/l |kb|^2   [E D^3],   kb = 2 t0 x t1 / (1 + t0 . t1)
 ///
-/// kb is the discrete curvature binormal (Bergou et al., Discrete Elastic Rods, 2008, eq. 1), l half
-/// the undeformed length of both segments. A round section bends alike in all directions, so no
-/// frame is needed. With q = 1 - t0 . t1 = |t1 - t0|^2/2, which stays exact for a nearly straight
-/// rod, |kb|^2 = F(q) = 4 q/(2 - q).
+/// kb is the discrete curvature binormal (Bergou et al., Discrete Elastic Rods, 2008, eq. 1), l
+/// half the undeformed length of both segments. A round section bends alike in all directions, so
+/// no frame is needed. With q = 1 - t0 . t1 = |t1 - t0|^2/2, which stays exact for a nearly
+/// straight rod, |kb|^2 = F(q) = 4 q/(2 - q).
 inline Element<9> bend_element(const Eigen::Matrix<double, 9, 1>& x, double B, double l) {
   Element<9> out;
   const Vector3 e0 = x.segment<3>(3) - x.head<3>(), e1 = x.tail<3>() - x.segment<3>(3);
@@ -66,8 +66,9 @@ class Bend final : public Effect {
   int stencils() const override { return stencils_.size(); }
   std::span<const int> coordinates(int i) const override { return stencils_[i]; }
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override {
-    slot.set(bend_element(stencils_.gather(x, i), rod_.bending_stiffness, rod_.voronoi_length(i + 1)),
-             order);
+    slot.set(
+        bend_element(stencils_.gather(x, i), rod_.bending_stiffness, rod_.voronoi_length(i + 1)),
+        order);
   }
 
  private:

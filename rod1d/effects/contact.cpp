@@ -27,8 +27,8 @@ void place(const SegmentSamples& samples, const double* nodes, Points& points) {
     points[i] = x * Eigen::Map<const Eigen::Vector4d>(samples.value[i].data());
 }
 
-/// Calls `visit(i, j, d, distance)` for all p[i] and q[j] nearer than `reach`, d from j to i. Looking
-/// at all of a row at once is faster than being clever: it is done in vector registers.
+/// Calls `visit(i, j, d, distance)` for all p[i] and q[j] nearer than `reach`, d from j to i.
+/// Looking at all of a row at once is faster than being clever: it is done in vector registers.
 template <class Visit>
 void for_near(const Points& p, const Points& q, double reach, Visit&& visit) {
   thread_local Eigen::ArrayXd x, y, z, square;
@@ -47,8 +47,8 @@ void for_near(const Points& p, const Points& q, double reach, Visit&& visit) {
 
 /// The same for the points that touch, `apart` along the rod at least.
 template <class Visit>
-void for_touching(const SegmentSamples& a, const SegmentSamples& b, const Points& p, const Points& q,
-                  const ContactLaw& law, double apart, Visit&& visit) {
+void for_touching(const SegmentSamples& a, const SegmentSamples& b, const Points& p,
+                  const Points& q, const ContactLaw& law, double apart, Visit&& visit) {
   for_near(p, q, 1 + 0.5 * law.onset, [&](size_t i, size_t j, const Vector3& d, double distance) {
     if (std::abs(a.arc[i] - b.arc[j]) > apart) visit(i, j, d, distance);
   });
@@ -95,8 +95,8 @@ Element<24> contact_element(const Eigen::Matrix<double, 24, 1>& x, const Segment
   place(b, x.data() + 12, q);
   sums_p.assign(p.size(), {}), sums_q.assign(q.size(), {});
   const double weight = a.spacing * b.spacing;
-  // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They are
-  // summed by points first, which share their nodes' weights.
+  // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They
+  // are summed by points first, which share their nodes' weights.
   for_touching(a, b, p, q, law, apart, [&](size_t i, size_t j, const Vector3& d, double distance) {
     const double gap = distance - 1;
     out.energy += weight * law.energy(gap);
@@ -216,7 +216,8 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
   Points p, q, dp, dq;
   Eigen::Matrix<double, 24, 1> values, change;
   for (const Pair& at : near_) {
-    for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]], change[k] = dx[at.coordinates[k]];
+    for (int k = 0; k < 24; ++k)
+      values[k] = x[at.coordinates[k]], change[k] = dx[at.coordinates[k]];
     place(samples_[at.a], values.data(), p), place(samples_[at.b], values.data() + 12, q);
     place(samples_[at.a], change.data(), dp), place(samples_[at.b], change.data() + 12, dq);
     // Every fourth point or so is enough to see two strands approach.
@@ -243,10 +244,11 @@ std::vector<ContactPoint> Contact::points(const Vector& x) const {
     const auto inside = [](const SegmentSamples& s, size_t i) {
       return (static_cast<double>(i) + 0.5) / static_cast<double>(s.arc.size());
     };
-    for_touching(a, b, p, q, law_, exclusion, [&](size_t i, size_t j, const Vector3&, double distance) {
-      list.push_back({at.a, at.b, inside(a, i), inside(b, j), distance - 1,
-                      -a.spacing * b.spacing * law_.slope(distance - 1)});
-    });
+    for_touching(a, b, p, q, law_, exclusion,
+                 [&](size_t i, size_t j, const Vector3&, double distance) {
+                   list.push_back({at.a, at.b, inside(a, i), inside(b, j), distance - 1,
+                                   -a.spacing * b.spacing * law_.slope(distance - 1)});
+                 });
   }
   return list;
 }

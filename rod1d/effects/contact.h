@@ -24,10 +24,11 @@ struct SegmentSamples {
 ///   W = sum over s, t of ds dt law(|p(s) - q(t)| - 1)   [E D^3]
 ///
 /// by the midpoint rule. Unlike the distance to a nearest point, which ceases to be smooth where
-/// one strand winds around the other with curvature 1/D (every point of the bend is nearest then, as
-/// in a tight knot), this is as smooth as the law, and needs no projection. The law is of short
+/// one strand winds around the other with curvature 1/D (every point of the bend is nearest then,
+/// as in a tight knot), this is as smooth as the law, and needs no projection. The law is of short
 /// range, so that along a line of contact only points within sqrt(2 onset) of each other count.
-/// `exclusion`: points nearer than this along the rod do not touch. x: four nodes of either segment.
+/// `exclusion`: points nearer than this along the rod do not touch. x: four nodes of either
+/// segment.
 Element<24> contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
                             const SegmentSamples& b, double exclusion, const ContactLaw& law,
                             Order order);
@@ -72,10 +73,10 @@ class Contact final : public Effect {
   double largest_move(const Vector& dx) const;
 
   int nodes_;
-  std::vector<double> arc_;               ///< undeformed arc length of the nodes
-  std::vector<SegmentSamples> samples_;   ///< by segment
+  std::vector<double> arc_;              ///< undeformed arc length of the nodes
+  std::vector<SegmentSamples> samples_;  ///< by segment
   ContactLaw law_;
-  Vector searched_;                       ///< state for which windows_ were found
+  Vector searched_;  ///< state for which windows_ were found
   std::vector<ContactWindow> windows_;
   std::vector<Pair> touching_, near_;
 };

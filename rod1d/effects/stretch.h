@@ -25,8 +25,8 @@ inline Element<6> stretch_element(const Eigen::Matrix<double, 6, 1>& x, double E
   out.gradient.head<3>() = -force * t;
   out.gradient.tail<3>() = force * t;
   // d(force t)/de = EA/l t t' + force/length (I - t t')
-  const Matrix3 k = (EA / l) * t * t.transpose() +
-                    (force / length) * (Matrix3::Identity() - t * t.transpose());
+  const Matrix3 k =
+      (EA / l) * t * t.transpose() + (force / length) * (Matrix3::Identity() - t * t.transpose());
   out.hessian.topLeftCorner<3, 3>() = out.hessian.bottomRightCorner<3, 3>() = k;
   out.hessian.topRightCorner<3, 3>() = out.hessian.bottomLeftCorner<3, 3>() = -k;
   return out;
@@ -44,8 +44,9 @@ class Stretch final : public Effect {
   int stencils() const override { return stencils_.size(); }
   std::span<const int> coordinates(int i) const override { return stencils_[i]; }
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override {
-    slot.set(stretch_element(stencils_.gather(x, i), rod_.stretching_stiffness, rod_.rest_length[i]),
-             order);
+    slot.set(
+        stretch_element(stencils_.gather(x, i), rod_.stretching_stiffness, rod_.rest_length[i]),
+        order);
   }
 
  private:

@@ -1,8 +1,8 @@
 #include "mechanics/assemble.h"
 
-#include <catch2/catch.hpp>
 #include <omp.h>
 
+#include <catch2/catch.hpp>
 #include <random>
 
 #include "tests/mechanics/toy_effects.h"
@@ -29,8 +29,8 @@ struct Problem {
     for (int i = 0; i < points; ++i) blocks.push_back(3 * i);
     blocks.push_back(3 * points);
     held.assign(x.size(), false);
-    held[0] = held[1] = held[2] = true;   // a whole point
-    held[7] = true;                       // one coordinate of another
+    held[0] = held[1] = held[2] = true;  // a whole point
+    held[7] = true;                      // one coordinate of another
     turn.point = Vector3(0.3, -0.2, 0.1);
     turn.axis = Vector3(1, 2, -0.5).normalized();
     turn.angle = 3 * points;
@@ -40,14 +40,13 @@ struct Problem {
     for (int i = 0; i + 5 < points; ++i) springs.push_back({3 * i + 15, 3 * i, 0.5, 1.2});
     effects.push_back(std::make_unique<test::Springs>(springs));
   }
-  Unknowns unknowns() const {
-    return Unknowns(blocks, static_cast<int>(x.size()), held, {turn});
-  }
+  Unknowns unknowns() const { return Unknowns(blocks, static_cast<int>(x.size()), held, {turn}); }
 };
 
 }  // namespace
 
-TEST_CASE("gradient and Hessian by unknowns are derivatives of the energy, turned points included") {
+TEST_CASE(
+    "gradient and Hessian by unknowns are derivatives of the energy, turned points included") {
   Problem problem;
   const Unknowns unknowns = problem.unknowns();
   CHECK(unknowns.size() == 3 * 10 - 3 - 1 + 1);

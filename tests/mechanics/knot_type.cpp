@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <functional>
 
@@ -14,8 +13,7 @@ namespace {
 Polyline opened(const std::function<Vector3(double)>& curve, int nodes) {
   const double gap = 0.01;
   Polyline line{10 * curve(gap)};
-  for (int i = 0; i <= nodes; ++i)
-    line.push_back(curve(gap + (2 * M_PI - 2 * gap) * i / nodes));
+  for (int i = 0; i <= nodes; ++i) line.push_back(curve(gap + (2 * M_PI - 2 * gap) * i / nodes));
   line.push_back(10 * curve(-gap));
   return line;
 }
@@ -35,8 +33,7 @@ Vector3 figure_eight(double t) {
 TEST_CASE("a straight or coiled line is no knot") {
   Polyline straight, coil;
   for (int i = 0; i <= 50; ++i) straight.push_back({0, 0, 0.3 * i});
-  for (int i = 0; i <= 400; ++i)
-    coil.push_back({std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * i});
+  for (int i = 0; i <= 400; ++i) coil.push_back({std::cos(0.1 * i), std::sin(0.1 * i), 0.01 * i});
   CHECK(knot_determinant(straight) == 1);
   CHECK(knot_determinant(coil) == 1);
 }
@@ -62,5 +59,6 @@ TEST_CASE("the determinant does not depend on size and orientation") {
 }
 
 TEST_CASE("a planar line that runs through itself has no knot type") {
-  CHECK(knot_determinant({{0, 0, 0}, {0, 0, 5}, {0, 2, 5}, {0, 2, 1}, {0, -2, 1}, {0, -2, 8}}) == 0);
+  CHECK(knot_determinant({{0, 0, 0}, {0, 0, 5}, {0, 2, 5}, {0, 2, 1}, {0, -2, 1}, {0, -2, 8}}) ==
+        0);
 }

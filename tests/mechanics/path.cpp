@@ -1,7 +1,6 @@
 #include "mechanics/path.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 using namespace bight;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-
 #include <random>
 
 using namespace bight;

@@ -7,8 +7,8 @@
 
 namespace bight::test {
 
-/// Springs between points, W = k/4 (|d|^2 - l^2)^2: a smooth energy with an easy Hessian, indefinite
-/// where a spring is short.
+/// Springs between points, W = k/4 (|d|^2 - l^2)^2: a smooth energy with an easy Hessian,
+/// indefinite where a spring is short.
 class Springs final : public Effect {
  public:
   struct Spring {

@@ -1,8 +1,7 @@
 #include "rod1d/contact_pairs.h"
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <random>
 #include <set>
 

@@ -1,9 +1,9 @@
+#include "rod1d/effects.h"
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-
 #include <random>
 
-#include "rod1d/effects.h"
 #include "rod1d/effects/bend.h"
 #include "rod1d/effects/stretch.h"
 #include "rod1d/overhand.h"
@@ -110,7 +110,8 @@ TEST_CASE("a folded or vanished segment is inadmissible") {
 }
 
 TEST_CASE("crossed straight strands press with the integral of the law over the plane") {
-  // Two lines at right angles, a distance 1 + g apart: W = int law(sqrt((1+g)^2 + r^2) - 1) 2 pi r dr.
+  // Two lines at right angles, a distance 1 + g apart: W = int law(sqrt((1+g)^2 + r^2) - 1) 2 pi r
+  // dr.
   const ContactLaw law{2.0, 0.004};
   const double gap = -0.0015;
   SegmentSamples line;
@@ -138,7 +139,8 @@ TEST_CASE("crossed straight strands press with the integral of the law over the 
   const auto element = contact_element(x, line, other, 1.5, law, Order::gradient);
   CHECK(element.energy == Approx(energy).epsilon(0.005));
   double upper = 0, lower = 0;
-  for (int k = 0; k < 4; ++k) lower += element.gradient[3 * k + 2], upper += element.gradient[12 + 3 * k + 2];
+  for (int k = 0; k < 4; ++k)
+    lower += element.gradient[3 * k + 2], upper += element.gradient[12 + 3 * k + 2];
   CHECK(-upper == Approx(force).epsilon(0.005));
   CHECK(upper == Approx(-lower));
 }

@@ -1,7 +1,6 @@
 #include "rod1d/overhand.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "mechanics/knot_type.h"

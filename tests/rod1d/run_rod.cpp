@@ -1,8 +1,8 @@
 #include "rod1d/run_rod.h"
 
-#include <catch2/catch.hpp>
 #include <omp.h>
 
+#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "mechanics/knot_type.h"
