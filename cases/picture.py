@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the knot of a results folder: the tied rod as a tube, the solid coloured by contact pressure.
+"""Draws the knot of a results folder: the tied rod as a tube, the solid coloured by contact pressure,
+and below it the contact pressure on the unrolled surface (undeformed arc length, angle).
 
     /usr/bin/python3 cases/picture.py results/overhand cases/figures/overhand.png [EBAR ...]
 
@@ -16,12 +17,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import PowerNorm
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 LIGHT = np.array([0.35, 0.55, 0.75]) / np.linalg.norm([0.35, 0.55, 0.75])
-REACH = 11  # what a panel shows on each side of the knot, in diameters
+REACH = 7.5, 5.3  # what a panel shows about the knot's middle, along and across, in diameters
 CORNERS = 3  # every quadrilateral is drawn as CORNERS x CORNERS smaller ones, smoothly shaded
 
 
@@ -57,7 +59,8 @@ def rod_tube(file, sides=32):
     i, j = np.meshgrid(np.arange(len(x) - 1), np.arange(sides), indexing="ij")
     k = (j + 1) % sides
     quads = np.stack([i * sides + j, i * sides + k, (i + 1) * sides + k, (i + 1) * sides + j], -1)
-    return points.reshape(-1, 3), quads.reshape(-1, 4), normal.reshape(-1, 3), None, 2 * radius
+    return {"points": points.reshape(-1, 3), "quads": quads.reshape(-1, 4),
+            "normal": normal.reshape(-1, 3), "diameter": 2 * radius}
 
 
 def solid_surface(file):
@@ -76,8 +79,8 @@ def solid_surface(file):
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     reference = point_field(mesh, "reference")
     diameter = 2 * np.max(np.linalg.norm(reference[:, :2], axis=1))
-    pressure = point_field(mesh, "contact_pressure") / 1e3
-    return points, quads, normal, pressure, diameter
+    return {"points": points, "quads": quads, "normal": normal, "diameter": diameter,
+            "pressure": point_field(mesh, "contact_pressure") / 1e3, "reference": reference / diameter}
 
 
 def view(points):
@@ -99,15 +102,14 @@ def refined(values, quads):
 
 
 def draw(axes, shape, axis_of_view, scale):
-    points, quads, normal, pressure, diameter = shape
+    points, quads, diameter = shape["points"], shape["quads"], shape["diameter"]
     x = refined(points @ axis_of_view.T / diameter, quads).reshape(-1, 4, 3)
-    n = refined(normal @ axis_of_view.T, quads).reshape(-1, 4, 3).mean(axis=1)
+    n = refined(shape["normal"] @ axis_of_view.T, quads).reshape(-1, 4, 3).mean(axis=1)
     n /= np.linalg.norm(n, axis=1)[:, None]
-    if pressure is None:
-        colour = np.tile([0.55, 0.68, 0.82], (len(x), 1))
-    else:
-        p = refined(pressure, quads).reshape(-1, 4).mean(axis=1)
-        colour = plt.cm.YlOrRd(0.08 + 0.92 * np.clip(p / scale, 0, 1))[:, :3]
+    colour = np.tile([0.55, 0.68, 0.82], (len(x), 1))
+    if "pressure" in shape:
+        p = refined(shape["pressure"], quads).reshape(-1, 4).mean(axis=1)
+        colour = plt.cm.YlOrRd(scale(p))[:, :3]
         colour[p <= 0] = [0.80, 0.84, 0.86]
     shade = 0.35 + 0.65 * np.clip(n @ LIGHT, 0, 1)
     order = np.argsort(x[:, :, 2].mean(axis=1))
@@ -115,13 +117,24 @@ def draw(axes, shape, axis_of_view, scale):
     faces = PolyCollection(x[order, :, :2], facecolors=np.clip(colour * shade[:, None], 0, 1)[order],
                            edgecolors="face", linewidths=0.3, antialiaseds=False)
     axes.add_collection(faces)
-    bent = np.abs(points[:, :2] - points[0, :2]).max(axis=1) > 1.5 * diameter  # off the pulling axis
-    middle = points[bent if bent.any() else slice(None)] @ axis_of_view.T / diameter
-    axes.set_xlim(middle[:, 0].mean() - REACH, middle[:, 0].mean() + REACH)
-    low, high = x[:, :, 1].min(), x[:, :, 1].max()
-    axes.set_ylim(0.5 * (low + high) - 0.48 * REACH, 0.5 * (low + high) + 0.48 * REACH)
+    off_axis = np.abs(points[:, :2] - points[0, :2]).max(axis=1)
+    knot = points[off_axis > 0.5 * off_axis.max()] @ axis_of_view.T / diameter
+    along = 0.5 * (knot[:, 0].min() + knot[:, 0].max())
+    across = 0.5 * (x[:, :, 1].min() + x[:, :, 1].max())
+    axes.set(xlim=(along - REACH[0], along + REACH[0]), ylim=(across - REACH[1], across + REACH[1]))
     axes.set_aspect("equal")
     axes.axis("off")
+
+
+def draw_unrolled(axes, shape, scale, range_of_s):
+    reference = shape["reference"]
+    rim = np.linalg.norm(reference[:, :2], axis=1) > 0.45
+    angle = np.degrees(np.arctan2(reference[rim, 1], reference[rim, 0]))
+    around = np.concatenate([angle - 360, angle, angle + 360])
+    axes.tripcolor(np.tile(reference[rim, 2], 3), around, np.tile(shape["pressure"][rim], 3),
+                   cmap=plt.cm.YlOrRd, norm=scale, shading="gouraud")
+    axes.set(xlim=range_of_s, ylim=(-180, 180), yticks=[-180, 0, 180], xlabel="s/D")
+    axes.tick_params(labelsize=7)
 
 
 def main(results, picture, wanted):
@@ -129,20 +142,29 @@ def main(results, picture, wanted):
     shapes = [(f"rod, tied, ebar = {ebar:g}", rod_tube(file))]
     shapes += [(f"solid, ebar = {ebar:g}", solid_surface(file)) for ebar, file in states(results, "solid")
                if not wanted or ebar in wanted]
-    scale = max([s[3].max() for _, s in shapes if s[3] is not None], default=1) or 1
-    columns = min(3, len(shapes))
-    rows = -(-len(shapes) // columns)
-    figure, panels = plt.subplots(rows, columns, figsize=(4.4 * columns, 2.4 * rows), squeeze=False)
-    axis_of_view = view(shapes[0][1][0])
-    for panel in panels.flat:
-        panel.axis("off")
-    for panel, (title, shape) in zip(panels.flat, shapes):
-        draw(panel, shape, axis_of_view, scale)
-        panel.set_title(title, fontsize=10)
-    if len(shapes) > 1:
-        bar = plt.cm.ScalarMappable(plt.Normalize(0, scale), plt.cm.YlOrRd)
-        figure.colorbar(bar, ax=panels, shrink=0.6, label="contact pressure [kPa]")
-    figure.savefig(picture, dpi=110, bbox_inches="tight")
+    solids = [shape for _, shape in shapes[1:]]
+    touching = [solid["pressure"] > 0 for solid in solids]
+    loads = np.concatenate([solid["pressure"][touch] for solid, touch in zip(solids, touching)] or [[]])
+    # Square root: the pressure of a loose knot is a hundredth of that of a tight one.
+    scale = PowerNorm(0.5, 0, np.percentile(loads, 98) if len(loads) else 1, clip=True)
+    touched = np.concatenate([solid["reference"][touch, 2] for solid, touch in zip(solids, touching)] or [[]])
+    range_of_s = (touched.min() - 1, touched.max() + 1) if len(touched) else None
+
+    columns = len(shapes)
+    figure, panels = plt.subplots(2, columns, figsize=(3.4 * columns, 3.6), squeeze=False,
+                                  height_ratios=[3, 1], layout="constrained")
+    axis_of_view = view(shapes[0][1]["points"])
+    for column, (title, shape) in enumerate(shapes):
+        draw(panels[0, column], shape, axis_of_view, scale)
+        panels[0, column].set_title(title, fontsize=10)
+        if "pressure" in shape:
+            draw_unrolled(panels[1, column], shape, scale, range_of_s)
+        else:
+            panels[1, column].axis("off")
+    if solids:
+        bar = plt.cm.ScalarMappable(scale, plt.cm.YlOrRd)
+        figure.colorbar(bar, ax=panels, shrink=0.7, extend="max", label="contact pressure [kPa]")
+    figure.savefig(picture, dpi=110)
     print(picture)
 
 

@@ -21,6 +21,7 @@ def main(results, picture):
             there = np.isfinite(table[name])
             force.semilogy(table["ebar"][there], table[name][there], style, label=name.replace("_", " "))
     force.invert_xaxis()
+    force.set_ylim(top=2 * np.nanmax(table["rod"] if "rod" in table.dtype.names else table["solid"]))
     force.set(xlabel="ebar = (L0 - L)/D", ylabel="T D$^2$/(4B)")
     force.legend(frameon=False)
     if "solid_difference" in table.dtype.names:

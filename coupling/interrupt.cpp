@@ -1,22 +1,29 @@
 #include "coupling/interrupt.h"
 
-#include <csignal>
+#include <signal.h>
+#include <unistd.h>
 
 namespace bight::coupling {
 namespace {
 
-volatile std::sig_atomic_t asked_to_stop = 0;
+constexpr unsigned patience = 10;  // seconds that a step may still take after an interrupt
 
-void ask_to_stop(int signal) {
+volatile sig_atomic_t asked_to_stop = 0;
+
+void leave(int) { _exit(130); }
+
+void ask_to_stop(int) {
+  if (asked_to_stop) _exit(130);
   asked_to_stop = 1;
-  std::signal(signal, SIG_DFL);  // the second interrupt kills
+  alarm(patience);
 }
 
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  signal(SIGINT, ask_to_stop);
+  signal(SIGTERM, ask_to_stop);
+  signal(SIGALRM, leave);
 }
 
 bool interrupted() { return asked_to_stop != 0; }
