@@ -1,0 +1,99 @@
+// The chain rod -> sweep -> solid on a coarse mesh: what must hold at every step of a tight knot.
+#include <omp.h>
+
+#include <catch2/catch.hpp>
+
+#include "coupling/sweep.h"
+#include "rod1d/overhand.h"
+#include "rod1d/run_rod.h"
+#include "solid3d/effects/strain.h"
+#include "solid3d/run_solid.h"
+
+using namespace bight;
+using namespace bight::coupling;
+
+namespace {
+
+constexpr double length = 350 / 8.3, seed_ebar = 20;
+
+const rod1d::RodState& seed() {
+  static const rod1d::RodState state = [] {
+    rod1d::RodParameters parameters;
+    parameters.length = length;
+    parameters.start = rod1d::overhand_start(length, 30, 340);
+    parameters.path.waypoints = {30, seed_ebar};
+    parameters.path.record = {seed_ebar};
+    return rod1d::run_rod(parameters).states.at(0);
+  }();
+  return state;
+}
+
+solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr) {
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
+  solid3d::SolidParameters parameters;
+  parameters.expected_tension = seed().tension;
+  parameters.path.waypoints = {seed_ebar, to};
+  parameters.path.record = {seed_ebar, to};
+  solid3d::SolidObserver observer;
+  if (states) observer.on_record = [=](const auto& state) { states->push_back(state); };
+  return solid3d::run_solid(mesh, sweep(mesh, seed()), seed_ebar, parameters, observer);
+}
+
+}  // namespace
+
+TEST_CASE("a sweep along a straight rod is the reference mesh, and ends are flat") {
+  rod1d::RodState rod;
+  for (int i = 0; i <= 40; ++i) {
+    rod.s.push_back(0.25 * i);
+    rod.nodes.push_back({0, 0, 0.25 * i});
+    rod.curvature.push_back(0);
+  }
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, rod);
+  const auto nodes = sweep(mesh, rod);
+  for (int n = 0; n < mesh.nodes(); ++n)
+    CHECK((nodes[n] - mesh.reference(n)).norm() < 1e-12);
+}
+
+TEST_CASE("the swept knot has no inverted cell") {
+  for (int cells : {12, 32}) {
+    const solid3d::Mesh mesh = swept_mesh({.section_elements = cells}, seed());
+    const auto nodes = sweep(mesh, seed());
+    const solid3d::Strain strain(mesh, 3 * mesh.nodes(), {}, 1.0);
+    Vector x = Vector::Zero(3 * mesh.nodes() + 2 * static_cast<int>(mesh.cells.size()));
+    for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = nodes[n];
+    double least = 1;
+    for (int cell = 0; cell < strain.stencils(); ++cell)
+      least = std::min(least, strain.stress(x, cell).least_jacobian);
+    CHECK(least > 0.5);
+  }
+}
+
+TEST_CASE("the solid tightens in balance, on one thread as on two") {
+  std::vector<solid3d::SolidState> states;
+  omp_set_num_threads(2);
+  const auto two = tighten(18, &states);
+  REQUIRE(two.outcome.status == PathStatus::finished);
+  for (size_t i = 0; i < two.steps.size(); ++i) {
+    const StepRow& row = two.steps[i];
+    CAPTURE(row.ebar);
+    CHECK(row.reaction_mismatch < 1e-6);
+    CHECK(row.max_penetration < 0.01);
+    CHECK(row.min_jacobian > 0.5);
+    if (i == 0) continue;
+    // T = -dE/de at mid-step, by the trapezoid rule.
+    const StepRow& last = two.steps[i - 1];
+    const double work = 0.5 * (row.tension + last.tension) * (last.ebar - row.ebar);
+    CHECK(row.energy - last.energy == Approx(work).epsilon(0.02));
+  }
+  REQUIRE(states.size() == 2);
+  for (const auto& state : states) CHECK(state.determinant == 3);
+  // Sections flatten: the solid is softer than the rod it was swept from.
+  CHECK(two.steps[0].tension < seed().tension);
+  CHECK(two.steps[0].tension > 0.9 * seed().tension);
+
+  omp_set_num_threads(1);
+  const auto one = tighten(18);
+  REQUIRE(one.steps.size() == two.steps.size());
+  for (size_t i = 0; i < one.steps.size(); ++i)
+    CHECK(one.steps[i].tension == Approx(two.steps[i].tension).epsilon(1e-4));
+}

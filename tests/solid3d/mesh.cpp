@@ -1,0 +1,46 @@
+#include "solid3d/mesh.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace bight;
+using namespace bight::solid3d;
+
+TEST_CASE("a section has about the cells that were asked for and the second moment of a disc") {
+  for (const auto& [asked, made] : std::vector<std::pair<int, int>>{
+           {12, 12}, {21, 21}, {32, 32}, {60, 60}, {108, 108}, {100, 96}}) {
+    const Section section = make_section(asked);
+    CAPTURE(asked);
+    CHECK(section.quads.size() == static_cast<size_t>(made));
+    CHECK(section.second_moment() == Approx(std::numbers::pi / 64).epsilon(1e-12));
+    CHECK(section.area() == Approx(std::numbers::pi / 4).epsilon(0.003));
+    double sum = 0;
+    for (const auto& q : section.quads) {
+      double area = 0;
+      for (int i = 0; i < 4; ++i) {
+        const Vector2 &a = section.points[q[i]], &b = section.points[q[(i + 1) % 4]];
+        area += 0.5 * (a.x() * b.y() - b.x() * a.y());
+      }
+      CHECK(area > 0.3 * section.area() / made);
+      sum += area;
+    }
+    CHECK(sum == Approx(section.area()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("graded layers are fine in the knot, coarse in the tails, and end exactly") {
+  const auto s = graded_layers(40, 0.1, 0.4, 12, 28);
+  CHECK(s.front() == 0);
+  CHECK(s.back() == 40);
+  double finest = 1, coarsest = 0;
+  for (size_t i = 1; i < s.size(); ++i) {
+    const double h = s[i] - s[i - 1], middle = 0.5 * (s[i] + s[i - 1]);
+    CHECK(h > 0);
+    if (middle > 12 && middle < 28) CHECK(h <= 0.1 + 1e-12);
+    finest = std::min(finest, h);
+    coarsest = std::max(coarsest, h);
+    CHECK(h + (s[s.size() - i - 1] - s[s.size() - i]) == Approx(0).margin(1e-9));  // symmetric
+  }
+  CHECK(coarsest > 0.3);
+  CHECK(s.size() % 2 == 1);
+}

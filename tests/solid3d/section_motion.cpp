@@ -1,0 +1,48 @@
+#include "solid3d/section_motion.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "tests/solid3d/shapes.h"
+
+using namespace bight;
+using namespace bight::solid3d;
+
+namespace {
+
+/// The straight rod turned by `angle` about an oblique axis.
+Vector turned(const Mesh& mesh, double angle) {
+  const Matrix3 R = Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  Vector x = test::reference_state(mesh, 2);
+  for (int n = 0; n < mesh.nodes(); ++n)
+    x.segment<3>(3 * n) = R * mesh.reference(n);
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("a linear step of rotation is taken as a rotation, sections keep their size") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  Vector x = test::reference_state(mesh, 2), dx = Vector::Zero(x.size());
+  const Vector3 w(0.2, -0.1, 0.4);
+  for (int n = 0; n < mesh.nodes(); ++n) dx.segment<3>(3 * n) = w.cross(mesh.reference(n));
+  dx[dx.size() - 1] = 0.5;
+  advance_sections(mesh, x, dx);
+  CHECK(x[x.size() - 1] == 0.5);
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const Vector3 a = x.segment<3>(3 * mesh.node(k, mesh.section.rim[0]));
+    const Vector3 b = x.segment<3>(3 * mesh.node(k, mesh.section.rim[4]));
+    const double width = (mesh.section.points[mesh.section.rim[0]] -
+                          mesh.section.points[mesh.section.rim[4]]).norm();
+    CHECK((a - b).norm() == Approx(width).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a steady screw is extrapolated exactly, from two states and from three") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  const std::vector<Station> two{{10.0, turned(mesh, 0.1)}, {9.5, turned(mesh, 0.2)}};
+  CHECK((extrapolate_sections(mesh, two, 9.0) - turned(mesh, 0.3)).norm() < 1e-11);
+  const std::vector<Station> three{
+      {10.5, turned(mesh, 0.0)}, {10.0, turned(mesh, 0.1)}, {9.5, turned(mesh, 0.2)}};
+  CHECK((extrapolate_sections(mesh, three, 9.0) - turned(mesh, 0.3)).norm() < 1e-11);
+}
