@@ -10,7 +10,7 @@ namespace bight {
 namespace {
 
 /// Elements are computed and scattered by chunks of this many: small enough for the cache.
-constexpr int chunk_size = 128;
+constexpr int chunk_size = 512;
 /// Below this many stencils an effect is cheaper on one thread.
 constexpr int parallel_from = 512;
 
