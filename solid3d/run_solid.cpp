@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "mechanics/knot_type.h"
 #include "solid3d/effects/grip.h"
 #include "solid3d/measure.h"
 #include "solid3d/section_motion.h"
+#include "solid3d/two_fold.h"
 
 namespace bight::solid3d {
 
@@ -45,8 +47,12 @@ class SolidPath : public PathModel {
     Vector x = Vector::Zero(internal_begin_ + 2 * static_cast<int>(mesh.cells.size()));
     for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = start[n];
     history_.push_back({start_ebar, std::move(x)});
+    if (grip_.start_turns) symmetry_ = TwoFold::find(mesh, start);
     determinant_ = knot_determinant(centerline(mesh, newest()));
-    system_.advance = [this](Vector& state, const Vector& dx) { advance(state, dx); };
+    system_.advance = [this](Vector& state, const Vector& dx) {
+      advance(state, dx);
+      if (symmetry_) symmetry_->impose(state, internal_begin_);
+    };
   }
 
   Vector predict(double ebar) const override {
@@ -59,26 +65,18 @@ class SolidPath : public PathModel {
     grip_.move(mesh_, ebar, x);
     // The middle of a symmetric knot moves half as far as the finish.
     move_pins(-0.5 * de, x);
+    if (symmetry_) symmetry_->impose(x, internal_begin_);
     return x;
   }
 
   NewtonResult solve(const Vector& guess, double) override {
-    NewtonOptions options;
-    options.max_iterations = max_iterations;
-    options.force_tolerance = force_tolerance * tension_;
-    options.energy_tolerance = energy_tolerance * tension_;
-    options.largest_move = parameters_.largest_move;
-    options.bound.first_rise = energy_rise * tension_;
-    NewtonResult result = newton(system_, guess, options, observer_);
+    NewtonResult result = newton(system_, guess, options(), observer_);
     for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
       const double overlap = effects_.contact->max_penetration();
       if (overlap <= parameters_.penetration) break;
       effects_.contact->law().stiffness *=
           std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
-      NewtonResult again = newton(system_, result.x, options, observer_);
-      again.iterations += result.iterations;
-      again.factorisations += result.factorisations;
-      result = std::move(again);
+      result = go_on(std::move(result));
     }
     if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
       result.status = NewtonStatus::not_finite;
@@ -178,6 +176,24 @@ class SolidPath : public PathModel {
     return grip;
   }
 
+  NewtonOptions options() const {
+    NewtonOptions options;
+    options.max_iterations = max_iterations;
+    options.force_tolerance = force_tolerance * tension_;
+    options.energy_tolerance = energy_tolerance * tension_;
+    options.largest_move = parameters_.largest_move;
+    options.bound.first_rise = energy_rise * tension_;
+    return options;
+  }
+
+  /// Solves on from a solution after something has changed; counts on, too.
+  NewtonResult go_on(NewtonResult solved) {
+    NewtonResult result = newton(system_, std::move(solved.x), options(), observer_);
+    result.iterations += solved.iterations;
+    result.factorisations += solved.factorisations;
+    return result;
+  }
+
   /// Sections move rigidly through the exponential map, the turned finish about its axis.
   void advance(Vector& x, const Vector& dx) const {
     const Vector before = x;
@@ -231,6 +247,7 @@ class SolidPath : public PathModel {
   System system_;
   double tension_;
   int determinant_ = 0;
+  std::optional<TwoFold> symmetry_;  ///< kept on the way, where the start and the ends have it
   std::vector<Station> history_;  ///< the last accepted states, newest last
   Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;
