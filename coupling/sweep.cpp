@@ -43,11 +43,11 @@ std::vector<Matrix3> section_frames(const solid3d::Mesh& mesh, const rod1d::RodS
   std::vector<Matrix3> frames;
   Matrix3 frame = Matrix3::Identity();
   for (int k = 0; k < mesh.layers(); ++k) {
-    const Vector3 next = is_held(mesh, k) ? Vector3(Vector3::UnitZ())
-                                          : Vector3(curve.at(mesh.s[k]).dr.normalized());
+    const Vector3 next =
+        is_held(mesh, k) ? Vector3(Vector3::UnitZ()) : Vector3(curve.at(mesh.s[k]).dr.normalized());
     frame = transport(frame.col(2), next) * frame;
-    frames.push_back(frame * Eigen::AngleAxisd(twist_at(rod, mesh.s[k]), Vector3::UnitZ())
-                                 .toRotationMatrix());
+    frames.push_back(
+        frame * Eigen::AngleAxisd(twist_at(rod, mesh.s[k]), Vector3::UnitZ()).toRotationMatrix());
   }
   return frames;
 }
@@ -67,8 +67,7 @@ double roll_of_middle(const solid3d::Mesh& mesh, const std::vector<Matrix3>& fra
 
 solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod) {
   const solid3d::Section section = solid3d::make_section(options.section_elements);
-  const double width =
-      std::sqrt(section.area() / static_cast<double>(section.quads.size()));
+  const double width = std::sqrt(section.area() / static_cast<double>(section.quads.size()));
   // The knot: where the rod is bent or touched. Tails are nearly straight.
   constexpr double bent = 0.02;  // kappa D
   double begin = rod.s.back(), end = 0;
@@ -80,10 +79,9 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
   // Equal tails, so that a knot tied in the middle keeps its symmetry in the mesh.
   const double length = rod.s.back();
   const double tail = std::max(0.0, std::min(begin, length - end) - options.knot_margin);
-  return solid3d::make_mesh(section,
-                            solid3d::graded_layers(length, options.axial_ratio * width,
-                                                   options.tail_ratio * width, tail,
-                                                   length - tail));
+  return solid3d::make_mesh(
+      section, solid3d::graded_layers(length, options.axial_ratio * width,
+                                      options.tail_ratio * width, tail, length - tail));
 }
 
 std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod) {

@@ -10,9 +10,9 @@ namespace bight::coupling {
 /// How fine the swept mesh is.
 struct SweepOptions {
   int section_elements = 32;
-  double axial_ratio = 0.8;   ///< cell length over section cell width, in the knot
-  double tail_ratio = 3.0;    ///< the same at the ends of the tails
-  double knot_margin = 2.0;   ///< fine cells reach this far beyond the knot [D]
+  double axial_ratio = 0.8;  ///< cell length over section cell width, in the knot
+  double tail_ratio = 3.0;   ///< the same at the ends of the tails
+  double knot_margin = 2.0;  ///< fine cells reach this far beyond the knot [D]
 };
 
 /// The mesh of a straight rod of that length whose fine part covers the rod's knot.

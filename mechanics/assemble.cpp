@@ -183,7 +183,8 @@ bool Assembler::scatter(const Chunk& chunk, int thread, int threads) {
         for (int c = 0; c < column.count; ++c) {
           const int j = column.first + c;
           const double* from = entry.hessian.data() + static_cast<size_t>(j) * m + row.first;
-          double* to = hessian_.value.data() + hessian_.column_start[entry.unknown[j]] + at + row_shift;
+          double* to =
+              hessian_.value.data() + hessian_.column_start[entry.unknown[j]] + at + row_shift;
           for (int r = 0; r < row.count; ++r) to[r] += from[r];
         }
       }

@@ -32,10 +32,8 @@ struct ElementSlot {
   template <int N>
   void set(const Element<N>& element, Order order) {
     energy = element.energy;
-    if (order >= Order::gradient)
-      Eigen::Matrix<double, N, 1>::Map(gradient) = element.gradient;
-    if (order >= Order::hessian)
-      Eigen::Matrix<double, N, N>::Map(hessian) = element.hessian;
+    if (order >= Order::gradient) Eigen::Matrix<double, N, 1>::Map(gradient) = element.gradient;
+    if (order >= Order::hessian) Eigen::Matrix<double, N, N>::Map(hessian) = element.hessian;
   }
 };
 

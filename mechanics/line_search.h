@@ -9,14 +9,14 @@ namespace bight {
 /// soft modes (the rod rolling, the knot sliding); a search that insists on falling energy crawls
 /// along them. The rise allowed decays with every iteration, so the iteration still settles.
 struct EnergyBound {
-  double first_rise = 0;   ///< allowed at the first iteration [energy]
-  double decay = 0.8;      ///< per iteration
+  double first_rise = 0;  ///< allowed at the first iteration [energy]
+  double decay = 0.8;     ///< per iteration
   double allowed(int iteration) const { return first_rise * std::pow(decay, iteration); }
 };
 
 struct LineSearchResult {
-  double step = 0;       ///< accepted fraction of the direction; 0 when none was
-  double energy = 0;     ///< there
+  double step = 0;    ///< accepted fraction of the direction; 0 when none was
+  double energy = 0;  ///< there
   int evaluations = 0;
 };
 

@@ -30,10 +30,11 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient) 
 }
 
 /// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite. Elsewhere it
-/// begins at a hundredth of the last one, but no higher than in proportion to the residual, and grows
+/// begins at a part of the last one, but no higher than in proportion to the residual, and grows
 /// until the factorisation succeeds: along a solve it decays to zero. Dropping it at once lets the
 /// soft modes run far off. False when no shift in range does.
-bool direction(System& system, const Vector& g, double reach, NewtonResult& result, Vector& step) {
+bool direction(System& system, const Vector& g, const NewtonOptions& options, NewtonResult& result,
+               Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
   if (system.analysed_pattern != system.assembler.pattern_version()) {
     Timed timed(system, "analysis");
@@ -46,9 +47,9 @@ bool direction(System& system, const Vector& g, double reach, NewtonResult& resu
     const auto diagonal = std::lower_bound(begin, H.row.begin() + H.column_start[j + 1], j);
     largest = std::max(largest, std::abs(H.value[static_cast<size_t>(diagonal - H.row.begin())]));
   }
-  const double first =
-      std::clamp(0.1 * g.cwiseAbs().maxCoeff() / reach, 1e-11 * largest, 1e-4 * largest);
-  double shift = std::min(0.01 * system.shift, first);
+  const double first = std::clamp(0.1 * g.cwiseAbs().maxCoeff() / options.largest_move,
+                                  1e-11 * largest, 1e-4 * largest);
+  double shift = std::min(options.shift_decay * system.shift, first);
   if (shift < 1e-10 * largest) shift = 0;
   for (; shift <= 100 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;
@@ -92,7 +93,7 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
       return finish(NewtonStatus::too_many_iterations, "too many iterations");
 
     Vector step;
-    if (!direction(system, g, options.largest_move, result, step))
+    if (!direction(system, g, options, result, step))
       return finish(NewtonStatus::no_descent, "no shift makes the tangent positive definite");
     result.decrement = -g.dot(step);
     if (result.decrement <= options.energy_tolerance && result.residual <= options.force_tolerance)

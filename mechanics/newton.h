@@ -18,7 +18,7 @@ struct System {
   /// x <- x + dx, in the geometry of the model (rigid turns of sections taken exactly).
   std::function<void(Vector& x, const Vector& dx)> advance;
   int analysed_pattern = 0;  ///< pattern version that the symbolic analysis belongs to
-  double shift = 0;          ///< diagonal shift of the last factorisation, where the next one begins
+  double shift = 0;  ///< diagonal shift of the last factorisation, where the next one begins
   std::map<std::string, double> seconds{};  ///< wall seconds by phase, summed over all solves
 };
 
@@ -29,6 +29,7 @@ struct NewtonOptions {
   /// Largest out-of-balance force on one unknown at which to stop.
   double force_tolerance = 1e-8;
   double largest_move = 0.25;  ///< largest change of a coordinate in one iteration [D]
+  double shift_decay = 0.1;    ///< of the diagonal shift from one iteration to the next
   EnergyBound bound;
 };
 
@@ -37,12 +38,12 @@ enum class NewtonStatus { converged, stalled, too_many_iterations, not_finite, n
 struct NewtonResult {
   NewtonStatus status = NewtonStatus::too_many_iterations;
   Vector x;
-  Vector gradient;         ///< by coordinates at x: on held ones, the reactions
+  Vector gradient;  ///< by coordinates at x: on held ones, the reactions
   double energy = 0;
-  double residual = 0;     ///< largest out-of-balance force on one unknown
-  double decrement = 0;    ///< g . H^-1 g at the last direction
+  double residual = 0;   ///< largest out-of-balance force on one unknown
+  double decrement = 0;  ///< g . H^-1 g at the last direction
   int iterations = 0, factorisations = 0;
-  std::string reason;      ///< in words, when not converged
+  std::string reason;  ///< in words, when not converged
   bool ok() const { return status == NewtonStatus::converged; }
 };
 

@@ -20,13 +20,13 @@ struct Path {
 /// One accepted step: a row of force.csv, in the units of mechanics/types.h.
 struct StepRow {
   double ebar = 0;
-  double tension = 0;            ///< end tension T [E D^2]
-  double energy = 0;             ///< stored energy [E D^3]
-  double dissipated = 0;         ///< energy lost to friction so far [E D^3]
-  double max_penetration = 0;    ///< largest overlap of surfaces in contact [D]
-  int contact_pairs = 0;         ///< contact samples that carry load
-  int newton_iterations = 0;     ///< of the accepted solve (all of its passes)
-  double wall_s = 0;             ///< seconds since the run began
+  double tension = 0;          ///< end tension T [E D^2]
+  double energy = 0;           ///< stored energy [E D^3]
+  double dissipated = 0;       ///< energy lost to friction so far [E D^3]
+  double max_penetration = 0;  ///< largest overlap of surfaces in contact [D]
+  int contact_pairs = 0;       ///< contact samples that carry load
+  int newton_iterations = 0;   ///< of the accepted solve (all of its passes)
+  double wall_s = 0;           ///< seconds since the run began
 
   double increment = 0;          ///< the step in ebar that was accepted
   int cutbacks = 0;              ///< failed tries before it

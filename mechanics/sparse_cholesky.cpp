@@ -85,8 +85,7 @@ bool SparseCholesky::factor(const SymmetricMatrix& matrix, double shift) {
   cholmod_common& common = package_->common;
   cholmod_sparse a = view(matrix);
   double beta[2] = {shift, 0};
-  on_one_thread(
-      [&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
+  on_one_thread([&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
   if (common.status == CHOLMOD_OUT_OF_MEMORY)
     throw std::runtime_error("sparse Cholesky: out of memory");
   if (common.status != CHOLMOD_OK || package_->factor->minor < a.nrow) return false;

@@ -38,9 +38,9 @@ class SparseCholesky {
   /// Solves with the last successful factor.
   Vector solve(const Vector& right_hand_side) const;
 
-  std::size_t factor_entries() const;   ///< non-zeros of L
-  double factor_flops() const;          ///< floating point operations of one factorisation
-  std::size_t peak_bytes() const;       ///< largest memory held by the package so far
+  std::size_t factor_entries() const;  ///< non-zeros of L
+  double factor_flops() const;         ///< floating point operations of one factorisation
+  std::size_t peak_bytes() const;      ///< largest memory held by the package so far
 
  private:
   struct Package;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <vector>
 
 /// Units inside mechanics, rod1d and solid3d: lengths in diameters D, stresses in Young's moduli E.

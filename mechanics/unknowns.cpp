@@ -62,11 +62,9 @@ void Unknowns::advance(Vector& x, const Vector& dx) const {
   const Vector before = x;
   x += dx;
   for (const Turn& turn : turns_) {
-    const Matrix3 rotation =
-        Eigen::AngleAxisd(dx[turn.angle], turn.axis).toRotationMatrix();
+    const Matrix3 rotation = Eigen::AngleAxisd(dx[turn.angle], turn.axis).toRotationMatrix();
     for (int first : turn.carried)
-      x.segment<3>(first) =
-          turn.point + rotation * (before.segment<3>(first) - turn.point);
+      x.segment<3>(first) = turn.point + rotation * (before.segment<3>(first) - turn.point);
   }
 }
 

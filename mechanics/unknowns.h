@@ -9,10 +9,10 @@ namespace bight {
 /// A rigid rotation, about an axis, of points whose coordinates it carries along: an end that is
 /// clamped but free to turn. Its angle is a coordinate of its own.
 struct Turn {
-  Vector3 point = Vector3::Zero();   ///< on the axis [D]
-  Vector3 axis = Vector3::UnitZ();   ///< unit vector
-  int angle = -1;                    ///< coordinate that holds the angle [rad]
-  std::vector<int> carried;          ///< first coordinates (x of x, y, z) of the carried points
+  Vector3 point = Vector3::Zero();  ///< on the axis [D]
+  Vector3 axis = Vector3::UnitZ();  ///< unit vector
+  int angle = -1;                   ///< coordinate that holds the angle [rad]
+  std::vector<int> carried;         ///< first coordinates (x of x, y, z) of the carried points
 };
 
 /// Which coordinates Newton moves, and how it numbers them. A coordinate is free (an unknown),

@@ -25,8 +25,8 @@ struct PatchWeights {
 /// B-spline, periodic around the rod. Facets ripple by 0.4 to 1 % of D and make frictionless
 /// surfaces feel rough; this surface is smooth, with closed-form derivatives and a 3 x 3 stencil.
 ///
-/// Every rim node (a, k) owns the patch u in [a - 1/2, a + 1/2], v in [k - 1/2, k + 1/2]. The spline
-/// of a round section lies inside its control points; `skin` is what is missing to D/2.
+/// Every rim node (a, k) owns the patch u in [a - 1/2, a + 1/2], v in [k - 1/2, k + 1/2]. The
+/// spline of a round section lies inside its control points; `skin` is what is missing to D/2.
 class ContactSurface {
  public:
   explicit ContactSurface(const Mesh& mesh);
@@ -43,9 +43,7 @@ class ContactSurface {
   bool has_patch(int along) const { return along > 0 && along < layers_ - 1; }
 
   /// First coordinate of the rim node (a, k); a is periodic.
-  int coordinate(int around, int along) const {
-    return first_[patch(around, along)];
-  }
+  int coordinate(int around, int along) const { return first_[patch(around, along)]; }
   int node(int patch) const { return first_[patch] / 3; }
 
   double arc_length(int along) const { return s_[along]; }

@@ -21,12 +21,12 @@ struct HexReference {
 /// Node positions as columns.
 using HexNodes = Eigen::Matrix<double, 3, 8>;
 
-/// dN_a/dxi at a point of the cube [-1, 1]^3: N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta zeta_a)/8.
+/// dN_a/dxi at a point of the cube [-1, 1]^3: N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta
+/// zeta_a)/8.
 inline HexReference::Gradients parent_gradients(const Vector3& xi) {
-  static const HexNodes corner =
-      (HexNodes() << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, 1, 1,
-       1, 1)
-          .finished();
+  static const HexNodes corner = (HexNodes() << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1, 1,
+                                  1, -1, -1, -1, -1, 1, 1, 1, 1)
+                                     .finished();
   HexReference::Gradients g;
   for (int a = 0; a < 8; ++a) {
     const Vector3 f = Vector3::Ones() + xi.cwiseProduct(corner.col(a));

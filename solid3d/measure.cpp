@@ -39,8 +39,7 @@ std::vector<double> flattening(const Mesh& mesh, const Vector& x) {
     double least = undeformed;
     for (int i = 0; i < directions; ++i) {
       const double angle = std::numbers::pi * i / directions;
-      const Vector3 d =
-          places[k].rotation * Vector3(std::cos(angle), std::sin(angle), 0);
+      const Vector3 d = places[k].rotation * Vector3(std::cos(angle), std::sin(angle), 0);
       double low = 1e300, high = -1e300;
       for (int p : mesh.section.rim) {
         const double at = d.dot(x.segment<3>(3 * mesh.node(k, p)));

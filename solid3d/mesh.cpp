@@ -45,7 +45,8 @@ std::vector<double> graded_layers(double length, double fine, double coarse, dou
   std::vector<double> spacings = tail(knot_begin);
   std::reverse(spacings.begin(), spacings.end());
   // An even number, so that a layer lies in the middle.
-  const int middle = 2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine))));
+  const int middle =
+      2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine))));
   if (knot_end > knot_begin)
     spacings.insert(spacings.end(), static_cast<size_t>(middle), (knot_end - knot_begin) / middle);
   const std::vector<double> last = tail(length - knot_end);

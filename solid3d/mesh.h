@@ -10,12 +10,12 @@ namespace bight::solid3d {
 /// A disc of diameter 1 cut into quadrilaterals (O-grid: a square core and rings around it).
 /// Scaled so that the second moment of the polygon is pi/64, that of the disc.
 struct Section {
-  std::vector<Vector2> points;               ///< [D]
-  std::vector<std::array<int, 4>> quads;     ///< counter-clockwise
-  std::vector<int> rim;                      ///< boundary points, counter-clockwise, equally spaced
-  std::vector<int> centre;                   ///< points whose mean is the centre: one, or four
-  double area() const;                       ///< of the polygon [D^2]
-  double second_moment() const;              ///< of the polygon about x [D^4]
+  std::vector<Vector2> points;            ///< [D]
+  std::vector<std::array<int, 4>> quads;  ///< counter-clockwise
+  std::vector<int> rim;                   ///< boundary points, counter-clockwise, equally spaced
+  std::vector<int> centre;                ///< points whose mean is the centre: one, or four
+  double area() const;                    ///< of the polygon [D^2]
+  double second_moment() const;           ///< of the polygon about x [D^4]
 };
 
 /// About `cells` quadrilaterals: m x m core and r <= m/2 rings of 4 m (12, 21, 32, 60, 108 fit
@@ -26,8 +26,8 @@ Section make_section(int cells);
 /// Node number = layer * section.points.size() + point. The reference rod lies straight along z.
 struct Mesh {
   Section section;
-  std::vector<double> s;                     ///< undeformed arc length of the layers [D], 0 ... L0/D
-  std::vector<std::array<int, 8>> cells;     ///< VTK hexahedron order
+  std::vector<double> s;                  ///< undeformed arc length of the layers [D], 0 ... L0/D
+  std::vector<std::array<int, 8>> cells;  ///< VTK hexahedron order
   int layers() const { return static_cast<int>(s.size()); }
   int points_per_layer() const { return static_cast<int>(section.points.size()); }
   int nodes() const { return layers() * points_per_layer(); }

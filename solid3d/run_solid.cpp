@@ -21,6 +21,7 @@ constexpr double force_tolerance = 1e-8;
 constexpr double energy_tolerance = 1e-9;
 /// Energy rise that the first iteration may take, relative to T D.
 constexpr double energy_rise = 0.3;
+constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
@@ -37,8 +38,7 @@ class SolidPath : public PathModel {
         grip_(make_grip(mesh, start, parameters)),
         internal_begin_(grip_.coordinates(mesh)),
         effects_(make_effects(mesh, parameters, internal_begin_)),
-        unknowns_(grip_.unknowns(mesh,
-                                 internal_begin_ + 2 * static_cast<int>(mesh.cells.size()))),
+        unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()))),
         assembler_(unknowns_, effects_.list),
         system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
         tension_(parameters.expected_tension) {
@@ -148,9 +148,7 @@ class SolidPath : public PathModel {
                         const SolidParameters& parameters) {
     constexpr double off_axis = 0.3;  // of a section that can be pinned [D]
     Grip grip{parameters.finish_turns, false, {}};
-    const auto centre = [&](int layer) {
-      return start[mesh.node(layer, mesh.section.centre[0])];
-    };
+    const auto centre = [&](int layer) { return start[mesh.node(layer, mesh.section.centre[0])]; };
     const auto radius = [&](int layer) { return Vector2((centre(layer) - centre(0)).head<2>()); };
     int layer = mesh.layers() / 2;
     if (radius(layer).norm() < off_axis)
@@ -182,6 +180,7 @@ class SolidPath : public PathModel {
     options.force_tolerance = force_tolerance * tension_;
     options.energy_tolerance = energy_tolerance * tension_;
     options.largest_move = parameters_.largest_move;
+    options.shift_decay = shift_decay;
     options.bound.first_rise = energy_rise * tension_;
     return options;
   }
@@ -228,8 +227,8 @@ class SolidPath : public PathModel {
     grip_.move(mesh_, last.ebar + towards, moved);
     move_pins(-0.5 * towards, moved);
     assembler_.assemble(moved, Order::gradient, gradient);
-    const Vector rate = (unknowns_.reduce(moved, gradient) -
-                         unknowns_.reduce(last.x, gradient_)) / towards;
+    const Vector rate =
+        (unknowns_.reduce(moved, gradient) - unknowns_.reduce(last.x, gradient_)) / towards;
     const Vector step = -de * cholesky_.solve(rate);
     Vector x = last.x;
     advance(x, unknowns_.expand(x, step));
@@ -248,8 +247,8 @@ class SolidPath : public PathModel {
   double tension_;
   int determinant_ = 0;
   std::optional<TwoFold> symmetry_;  ///< kept on the way, where the start and the ends have it
-  std::vector<Station> history_;  ///< the last accepted states, newest last
-  Vector gradient_;               ///< by coordinates, at the newest
+  std::vector<Station> history_;     ///< the last accepted states, newest last
+  Vector gradient_;                  ///< by coordinates, at the newest
   NewtonObserver observer_;
   Clock::time_point begin_ = Clock::now();
 };

@@ -13,8 +13,8 @@ namespace bight::solid3d {
 
 /// Everything the solid fidelity needs, in units of D and E (mechanics/types.h).
 struct SolidParameters {
-  double bulk_to_shear = 1000;     ///< K / mu_s
-  bool finish_turns = true;        ///< finish end free to turn about the pulling axis
+  double bulk_to_shear = 1000;  ///< K / mu_s
+  bool finish_turns = true;     ///< finish end free to turn about the pulling axis
   bool contact = true;
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
@@ -27,19 +27,19 @@ struct SolidParameters {
 /// A recorded equilibrium of the solid, for the writers.
 struct SolidState {
   double ebar = 0;
-  std::vector<Vector3> nodes;             ///< current positions of the mesh nodes [D]
-  Polyline centerline;                    ///< middle node of each section [D]
-  std::vector<double> s;                  ///< undeformed arc length of the sections [D]
-  std::vector<double> curvature;          ///< kappa D of the centerline
-  std::vector<double> flattening;         ///< 1 - smallest diameter of the section / D
-  std::vector<double> jacobian;           ///< J, per cell
-  std::vector<double> pressure;           ///< mean Cauchy stress (tension positive), per cell [E]
-  std::vector<double> von_mises;          ///< per cell [E]
-  std::vector<double> contact_pressure;   ///< per node, 0 inside [E]
-  std::vector<double> gap;                ///< per node, to the facing strand [D]; large where none
-  double tension = 0;                     ///< [E D^2]
+  std::vector<Vector3> nodes;            ///< current positions of the mesh nodes [D]
+  Polyline centerline;                   ///< middle node of each section [D]
+  std::vector<double> s;                 ///< undeformed arc length of the sections [D]
+  std::vector<double> curvature;         ///< kappa D of the centerline
+  std::vector<double> flattening;        ///< 1 - smallest diameter of the section / D
+  std::vector<double> jacobian;          ///< J, per cell
+  std::vector<double> pressure;          ///< mean Cauchy stress (tension positive), per cell [E]
+  std::vector<double> von_mises;         ///< per cell [E]
+  std::vector<double> contact_pressure;  ///< per node, 0 inside [E]
+  std::vector<double> gap;               ///< per node, to the facing strand [D]; large where none
+  double tension = 0;                    ///< [E D^2]
   double min_jacobian = 1;
-  int determinant = 0;                    ///< of the closed centerline
+  int determinant = 0;                             ///< of the closed centerline
   std::map<std::string, double> energy_by_effect;  ///< [E D^3]
 };
 
@@ -53,10 +53,11 @@ struct SolidObserver {
 struct SolidResult {
   PathOutcome outcome;
   std::vector<StepRow> steps;
-  std::vector<double> recorded;            ///< ebar of the states handed to on_record
+  std::vector<double> recorded;  ///< ebar of the states handed to on_record
   int unknowns = 0, cells = 0;
   std::vector<std::string> effects;
-  std::map<std::string, double> seconds;   ///< by phase: relax, assembly, contact, factorisation, ...
+  std::map<std::string, double>
+      seconds;  ///< by phase: relax, assembly, contact, factorisation, ...
 };
 
 /// Relaxes the start (node positions of the swept mesh at start_ebar) to equilibrium, walks to the

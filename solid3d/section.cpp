@@ -54,8 +54,7 @@ double Section::second_moment() const {
   double sum = 0;
   for (size_t i = 0; i < rim.size(); ++i) {
     const Vector2 &a = points[rim[i]], &b = points[rim[(i + 1) % rim.size()]];
-    sum += (a.x() * b.y() - b.x() * a.y()) *
-           (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
+    sum += (a.x() * b.y() - b.x() * a.y()) * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
   }
   return sum;
 }
@@ -68,8 +67,7 @@ Section make_section(int cells) {
 
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= m; ++i)
-      section.points.push_back(core_radius *
-                               bulge({2.0 * i / m - 1, 2.0 * j / m - 1}));
+      section.points.push_back(core_radius * bulge({2.0 * i / m - 1, 2.0 * j / m - 1}));
   const auto core = [m = m](int i, int j) { return j * (m + 1) + i; };
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i)

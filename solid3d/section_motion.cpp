@@ -38,7 +38,8 @@ std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x) {
       C += (nodes.col(p) - centre) * (mesh.section.points[p] - reference_centre).transpose();
     const Eigen::JacobiSVD<Eigen::Matrix<double, 3, 2>> svd(
         C, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::Matrix<double, 3, 2> axes = svd.matrixU().leftCols<2>() * svd.matrixV().transpose();
+    const Eigen::Matrix<double, 3, 2> axes =
+        svd.matrixU().leftCols<2>() * svd.matrixV().transpose();
     Matrix3 R;
     R << axes, axes.col(0).cross(axes.col(1));
     places[k] = {centre, R};

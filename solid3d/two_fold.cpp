@@ -62,8 +62,8 @@ void TwoFold::impose(Vector& x, int internal_begin) const {
   const Vector old = x;
   for (size_t n = 0; n < node_.size(); ++n)
     x.segment<3>(3 * static_cast<Eigen::Index>(n)) =
-        0.5 * (old.segment<3>(3 * static_cast<Eigen::Index>(n)) +
-               turn(old.segment<3>(3 * node_[n])));
+        0.5 *
+        (old.segment<3>(3 * static_cast<Eigen::Index>(n)) + turn(old.segment<3>(3 * node_[n])));
   for (size_t c = 0; c < cell_.size(); ++c)
     x.segment<2>(internal_begin + 2 * static_cast<Eigen::Index>(c)) =
         0.5 * (old.segment<2>(internal_begin + 2 * static_cast<Eigen::Index>(c)) +

@@ -25,8 +25,8 @@ class TwoFold {
   void impose(Vector& x, int internal_begin) const;
 
  private:
-  int start_ = 0, middle_ = 0;     ///< nodes at the centres of those sections
-  std::vector<int> node_, cell_;   ///< images
+  int start_ = 0, middle_ = 0;    ///< nodes at the centres of those sections
+  std::vector<int> node_, cell_;  ///< images
 };
 
 }  // namespace bight::solid3d

@@ -44,8 +44,8 @@ void Contact::find_samples(const Vector& x) {
   std::vector<SurfacePoint> middle(near.size());
   for (int patch = 0; patch < surface_.patches(); ++patch)
     if (!near[patch].empty())
-      middle[patch] = surface_.evaluate(
-          x, surface_.weights(surface_.around(patch), surface_.along(patch)));
+      middle[patch] =
+          surface_.evaluate(x, surface_.weights(surface_.around(patch), surface_.along(patch)));
 
   samples_.clear();
   for (int patch = 0; patch < surface_.patches(); ++patch) {
@@ -93,8 +93,7 @@ void Contact::project(const Vector& x, Sample& sample) const {
 
 void Contact::refresh(const Vector& x) {
   const Eigen::Index n = x.size();
-  if (searched_at_.size() != n ||
-      [&] {
+  if (searched_at_.size() != n || [&] {
         double moved = 0;
         for (int patch = 0; patch < surface_.patches(); ++patch) {
           const int c = surface_.coordinate(surface_.around(patch), surface_.along(patch));

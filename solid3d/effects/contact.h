@@ -48,11 +48,11 @@ class Contact : public Effect {
 
   struct Sample {
     int patch = 0;
-    Vector2 local;              ///< place in the patch, in [-1/2, 1/2]^2
-    double weight = 0;          ///< half its reference area [D^2]
-    Vector2 facing;             ///< its projection (u, v) on the facing strand
-    double gap = 0;             ///< [D]; meaningful when it faces something
-    bool faces = false;         ///< a projection exists and the normals oppose each other
+    Vector2 local;       ///< place in the patch, in [-1/2, 1/2]^2
+    double weight = 0;   ///< half its reference area [D^2]
+    Vector2 facing;      ///< its projection (u, v) on the facing strand
+    double gap = 0;      ///< [D]; meaningful when it faces something
+    bool faces = false;  ///< a projection exists and the normals oppose each other
   };
   const std::vector<Sample>& samples() const { return samples_; }
 

@@ -11,8 +11,8 @@ namespace bight::solid3d {
 /// clamped; `finish` is moved along z, and clamped or free to turn about z.
 ///
 /// Without friction an end that is free to turn leaves no torque anywhere, and the knot may revolve
-/// about z at no cost while the rod rolls. Then the knot's middle is pinned and the start turns too:
-/// the same equilibria, seen from the knot. Only the turn between the ends has a meaning.
+/// about z at no cost while the rod rolls. Then the knot's middle is pinned and the start turns
+/// too: the same equilibria, seen from the knot. Only the turn between the ends has a meaning.
 ///
 /// A grip prescribes coordinates, so it is no energy: it says which coordinates are held, and
 /// reads the end tension from the forces on them.

@@ -33,8 +33,8 @@ class Strain : public Effect {
 
   /// Cell averages for output: volume ratio v/V and Cauchy stress [E].
   struct CellStress {
-    double jacobian = 1;           ///< v / V
-    double least_jacobian = 1;     ///< smallest det F over the Gauss points
+    double jacobian = 1;        ///< v / V
+    double least_jacobian = 1;  ///< smallest det F over the Gauss points
     Matrix3 cauchy = Matrix3::Zero();
   };
   CellStress stress(const Vector& x, int cell) const;

@@ -50,8 +50,7 @@ TEST_CASE("a sweep along a straight rod is the reference mesh, and ends are flat
   }
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, rod);
   const auto nodes = sweep(mesh, rod);
-  for (int n = 0; n < mesh.nodes(); ++n)
-    CHECK((nodes[n] - mesh.reference(n)).norm() < 1e-12);
+  for (int n = 0; n < mesh.nodes(); ++n) CHECK((nodes[n] - mesh.reference(n)).norm() < 1e-12);
 }
 
 TEST_CASE("the swept knot has no inverted cell") {

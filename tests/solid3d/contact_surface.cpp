@@ -32,8 +32,7 @@ TEST_CASE("a projection is nearest and leaves the surface at its ends") {
   const Vector3 point(0.6, 0.2, 1.4);
   const auto uv = surface.project(x, point, {0, 4});
   REQUIRE(uv);
-  const double nearest =
-      (surface.evaluate(x, surface.weights(uv->x(), uv->y())).y - point).norm();
+  const double nearest = (surface.evaluate(x, surface.weights(uv->x(), uv->y())).y - point).norm();
   for (double du : {-0.3, 0.3})
     for (double dv : {-0.3, 0.3})
       CHECK((surface.evaluate(x, surface.weights(uv->x() + du, uv->y() + dv)).y - point).norm() >
@@ -49,8 +48,8 @@ TEST_CASE("near patches are other stretches of the rod, found both ways") {
   for (int p = 0; p < surface.patches(); ++p)
     for (int q : near[p]) {
       ++pairs;
-      CHECK(std::abs(surface.arc_length(surface.along(p)) -
-                     surface.arc_length(surface.along(q))) >= 1.5);
+      CHECK(std::abs(surface.arc_length(surface.along(p)) - surface.arc_length(surface.along(q))) >=
+            1.5);
       CHECK(std::binary_search(near[q].begin(), near[q].end(), p));
     }
   CHECK(pairs > 20);

@@ -14,8 +14,7 @@ namespace {
 Vector turned(const Mesh& mesh, double angle) {
   const Matrix3 R = Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix();
   Vector x = test::reference_state(mesh, 2);
-  for (int n = 0; n < mesh.nodes(); ++n)
-    x.segment<3>(3 * n) = R * mesh.reference(n);
+  for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = R * mesh.reference(n);
   return x;
 }
 
@@ -32,8 +31,9 @@ TEST_CASE("a linear step of rotation is taken as a rotation, sections keep their
   for (int k = 0; k < mesh.layers(); ++k) {
     const Vector3 a = x.segment<3>(3 * mesh.node(k, mesh.section.rim[0]));
     const Vector3 b = x.segment<3>(3 * mesh.node(k, mesh.section.rim[4]));
-    const double width = (mesh.section.points[mesh.section.rim[0]] -
-                          mesh.section.points[mesh.section.rim[4]]).norm();
+    const double width =
+        (mesh.section.points[mesh.section.rim[0]] - mesh.section.points[mesh.section.rim[4]])
+            .norm();
     CHECK((a - b).norm() == Approx(width).epsilon(1e-12));
   }
 }

@@ -33,8 +33,7 @@ inline Vector helix_state(const solid3d::Mesh& mesh, double radius, double pitch
     const Vector3 X = mesh.reference(n);
     const double a = X.z() / per_angle;
     const Vector3 outwards(std::cos(a), std::sin(a), 0);
-    const Vector3 tangent =
-        Vector3(-radius * std::sin(a), radius * std::cos(a), rise) / per_angle;
+    const Vector3 tangent = Vector3(-radius * std::sin(a), radius * std::cos(a), rise) / per_angle;
     const Vector3 centre = radius * outwards + rise * a * Vector3::UnitZ();
     x.segment<3>(3 * n) = centre + X.x() * outwards + X.y() * tangent.cross(outwards);
   }

@@ -36,10 +36,9 @@ double energy(int cells, double length, double axial, const Strains& strain) {
   for (int n = 0; n < mesh.nodes(); ++n) {
     const Vector3 X = mesh.reference(n);
     const double z = X.z(), a = strain.kappa * z;
-    const Vector3 centre = strain.kappa > 0
-                               ? Vector3((1 - std::cos(a)) / strain.kappa, 0,
-                                         std::sin(a) / strain.kappa)
-                               : Vector3(0, 0, z * (1 + strain.epsilon));
+    const Vector3 centre =
+        strain.kappa > 0 ? Vector3((1 - std::cos(a)) / strain.kappa, 0, std::sin(a) / strain.kappa)
+                         : Vector3(0, 0, z * (1 + strain.epsilon));
     const Matrix3 R = (Eigen::AngleAxisd(a, Vector3::UnitY()) *
                        Eigen::AngleAxisd(strain.psi * z, Vector3::UnitZ()))
                           .toRotationMatrix();
