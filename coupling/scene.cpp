@@ -40,9 +40,9 @@ void derive_defaults(Values& values) {
   const auto waypoints = values.get<std::vector<double>>("path.ebar");
   derive(values, "path.record", waypoints);
   derive(values, "solid3d.seed_ebar", waypoints.front());
-  derive(
-      values, "rod1d.segments",
-      std::max(60.0, std::round(8 * values.number("rod.length") / values.number("rod.diameter"))));
+  // An even number puts a node in the middle, where a symmetric knot can be held.
+  const double slenderness = values.number("rod.length") / values.number("rod.diameter");
+  derive(values, "rod1d.segments", std::max(60.0, 2 * std::round(4 * slenderness)));
 }
 
 // The first waypoint after which the path has come by the seed.

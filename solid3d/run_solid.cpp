@@ -71,6 +71,11 @@ class SolidPath : public PathModel {
 
   NewtonResult solve(const Vector& guess, double) override {
     NewtonResult result = newton(system_, guess, options(), observer_);
+    if (!result.ok() && symmetry_) {
+      // The symmetric branch is lost: go on without it.
+      symmetry_.reset();
+      result = newton(system_, guess, options(), observer_);
+    }
     for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
       const double overlap = effects_.contact->max_penetration();
       if (overlap <= parameters_.penetration) break;
