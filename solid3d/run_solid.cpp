@@ -23,6 +23,8 @@ constexpr double energy_tolerance = 1e-9;
 constexpr double energy_rise = 0.3;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
+/// A symmetric solve that takes longer than this is on a branch about to be lost.
+constexpr int max_symmetric_iterations = 25;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
 constexpr size_t kept_states = 3;  ///< for the predictor
@@ -181,7 +183,7 @@ class SolidPath : public PathModel {
 
   NewtonOptions options() const {
     NewtonOptions options;
-    options.max_iterations = max_iterations;
+    options.max_iterations = symmetry_ ? max_symmetric_iterations : max_iterations;
     options.force_tolerance = force_tolerance * tension_;
     options.energy_tolerance = energy_tolerance * tension_;
     options.largest_move = parameters_.largest_move;
