@@ -87,6 +87,15 @@ class Check {
            fmt::format("segments of {:.2g} D are too long for smooth contact", segment));
   }
 
+  void ends() {
+    if (!scene_.finish_turns && !scene_.twist)
+      refuse("effects.twist", "a clamped finish end needs the rod's twist");
+    if (scene_.finish_turns && scene_.finish_turn != 0)
+      refuse("ends.turn", "only a finish end that is clamped can be turned");
+    if (scene_.finish_turn != 0 && scene_.solid)
+      refuse("ends.turn", "the solid does not simulate it yet: only for fidelities = [\"rod\"]");
+  }
+
   void effects() {
     bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
@@ -129,6 +138,7 @@ void check_scene(Scene& scene, const Values& values, Problems& problems) {
   if (check.length() && check.path()) check.knot();
   check.material();
   check.resolution();
+  check.ends();
   check.effects();
 }
 

@@ -65,6 +65,8 @@ const std::vector<Key>& all_keys() {
       {"ends.start", word, "", {}, {"clamped"}, R"("clamped")", "", "Grip at s = 0"},
       {"ends.finish", word, "", {}, {"free-twist", "clamped"}, R"("free-twist")", "",
        "Grip at s = L0; free-twist may turn about the pulling axis"},
+      {"ends.turn", quantity, "rad", {-1e4, 1e4}, {}, "0", "",
+       "Turn given to a clamped finish end of the rod once the knot is tied free of twist"},
 
       {"effects.contact", boolean, "", {}, {}, "true", "", "Strands keep each other outside"},
       {"effects.friction", number, "", {0, 5}, {}, "0", "", "Coulomb coefficient of the surface"},

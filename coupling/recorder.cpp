@@ -70,7 +70,8 @@ solid3d::SolidObserver Recorder::watch_solid(const solid3d::Mesh& mesh, const Pa
 void Recorder::write(const rod1d::RodState& state) {
   const std::string name = rod_->next_name(state.ebar);
   write_centerline(rod_->folder / "centerline" / (name + ".csv"), state.s, state.nodes,
-                   state.curvature, {{"contact_force", state.contact_force}});
+                   state.curvature,
+                   {{"contact_force", state.contact_force}, {"twist", state.twist}});
   write_rod_vtu(rod_->folder / "vtu" / (name + ".vtu"), state, scene_.scales());
   rod_->series.add(state.ebar, "vtu/" + name + ".vtu");
 }

@@ -83,6 +83,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.knot = values.word("knot.type");
   scene.centerline = values.word("knot.centerline");
   scene.finish_turns = values.word("ends.finish") == "free-twist";
+  scene.finish_turn = values.number("ends.turn");
   scene.contact = values.get<bool>("effects.contact");
   scene.twist = values.get<bool>("effects.twist");
   scene.friction = values.number("effects.friction");
@@ -128,6 +129,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.poissons_ratio = scene.poissons_ratio;
   rod.start = knot_start(scene);
   rod.finish_turns = scene.finish_turns;
+  rod.finish_turn = scene.finish_turn;
   rod.contact = scene.contact;
   rod.twist = scene.twist;
   rod.friction = scene.friction;

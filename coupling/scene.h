@@ -21,6 +21,7 @@ struct Scene {
   std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
   std::filesystem::path centerline;  ///< file with the tied start; empty with a knot
   bool finish_turns = true, contact = true, twist = false;
+  double finish_turn = 0;  ///< of a clamped finish end of the rod [rad]
   double friction = 0;
   Path path;
   int segments = 0;

@@ -1,7 +1,9 @@
 #include "rod1d/effects.h"
 
 #include "rod1d/effects/bend.h"
+#include "rod1d/effects/natural_bend.h"
 #include "rod1d/effects/stretch.h"
+#include "rod1d/effects/twist.h"
 
 namespace bight::rod1d {
 
@@ -12,7 +14,7 @@ constexpr double contact_spacing = 0.03;
 
 }  // namespace
 
-RodEffects make_effects(const Rod& rod, const RodParameters& parameters) {
+RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const Frames& source) {
   RodEffects effects;
   const auto add = [&](auto effect) {
     auto* raw = effect.get();
@@ -20,7 +22,9 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters) {
     return raw;
   };
   add(std::make_unique<Stretch>(rod));
-  add(std::make_unique<Bend>(rod));
+  if (rod.straight()) add(std::make_unique<Bend>(rod));
+  if (!rod.straight()) add(std::make_unique<NaturalBend>(rod, source));
+  if (parameters.twist) add(std::make_unique<Twist>(rod, source));
   if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
   return effects;
 }

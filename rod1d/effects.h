@@ -2,6 +2,7 @@
 
 #include "mechanics/assemble.h"
 #include "rod1d/effects/contact.h"
+#include "rod1d/frames.h"
 #include "rod1d/rod.h"
 #include "rod1d/run_rod.h"
 
@@ -13,7 +14,8 @@ struct RodEffects {
   Contact* contact = nullptr;
 };
 
-/// THE list: what the parameters ask for, nothing else.
-RodEffects make_effects(const Rod& rod, const RodParameters& parameters);
+/// THE list: what the parameters ask for, nothing else. `source`: frames that twist is counted
+/// from; they are read at every evaluation and may change between solves.
+RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const Frames& source);
 
 }  // namespace bight::rod1d

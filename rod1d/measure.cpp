@@ -31,6 +31,13 @@ std::vector<double> stretch(const Rod& rod, const Vector& x) {
   return ratio;
 }
 
+std::vector<double> twist_rate(const Rod& rod, const std::vector<double>& twist_angle) {
+  std::vector<double> rate(rod.nodes(), 0.0);
+  for (int i = 1; i < rod.segments(); ++i)
+    rate[i] = (twist_angle[i] - twist_angle[i - 1]) / rod.voronoi_length(i);
+  return rate;
+}
+
 std::vector<double> contact_force(const Rod& rod, const std::vector<ContactPoint>& points) {
   std::vector<double> force(rod.nodes(), 0.0);
   const auto share = [&](int segment, double u, double size) {

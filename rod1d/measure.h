@@ -15,6 +15,10 @@ std::vector<double> curvature(const Rod& rod, const Vector& x);
 /// Deformed over undeformed length of the segments.
 std::vector<double> stretch(const Rod& rod, const Vector& x);
 
+/// Twist per undeformed length at the nodes [1/D], from the angles of the segments against
+/// twist-free frames; zero at the ends.
+std::vector<double> twist_rate(const Rod& rod, const std::vector<double>& twist_angle);
+
 /// Size of the contact forces per undeformed length, at the nodes [E D].
 std::vector<double> contact_force(const Rod& rod, const std::vector<ContactPoint>& points);
 

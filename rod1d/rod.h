@@ -8,7 +8,8 @@
 
 namespace bight::rod1d {
 
-/// A straight round rod, cut into segments: its section and its undeformed lengths.
+/// A round rod, cut into segments: its section, its undeformed lengths and, unless it is straight
+/// when free, its natural curvature and twist.
 ///
 /// The state is one vector: positions of the nodes, three each, then, where twist is simulated, the
 /// twist angles of the segments.
@@ -17,6 +18,14 @@ struct Rod {
   double stretching_stiffness = std::numbers::pi / 4;  ///< EA [E D^2]
   double bending_stiffness = std::numbers::pi / 64;    ///< B [E D^4]
   double twisting_stiffness = 0;                       ///< C = B/(1 + nu) [E D^4]
+
+  /// At the nodes, when free: curvature about d1 and d2 of the material frames, and twist, times
+  /// the length that the node stands for [rad]. Empty: none.
+  std::vector<Vector2> rest_curvature;
+  std::vector<double> rest_twist;
+
+  double natural_twist(int node) const { return rest_twist.empty() ? 0.0 : rest_twist[node]; }
+  bool straight() const { return rest_curvature.empty(); }
 
   int segments() const { return static_cast<int>(rest_length.size()); }
   int nodes() const { return segments() + 1; }

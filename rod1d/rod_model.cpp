@@ -54,15 +54,16 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
     : parameters_(parameters),
       rod_(uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio)),
       length_(parameters.length),
-      effects_(make_effects(rod_, parameters)),
+      effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
   const Polyline line = chord_on_axis(resampled(start, parameters.segments));
   start_ebar_ = length_ - (line.back() - line.front()).norm();
   determinant_ = knot_determinant(line);
   force_scale_ = loose_tension(rod_, start_ebar_);
   stiffness_ = 4 * force_scale_ / (aimed_share * parameters.penetration);
-  Vector x = coordinates_of(rod_, line, 0);
+  Vector x = coordinates_of(rod_, line, angles());
   place_grips(rod_, end_to_end(start_ebar_), x);
+  if (parameters.twist) source_ = twist_free_frames(rod_, x);
   choose_pin(x);
   accepted_.push_back({start_ebar_, x});
 }
@@ -80,7 +81,7 @@ void RodModel::choose_pin(const Vector& x) {
   if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
       across(pin_.node).norm() > 0.5)
     return;
-  std::vector<bool> held = held_coordinates(rod_, false, parameters_.finish_turns);
+  std::vector<bool> held = held_coordinates(rod_, parameters_.twist, finish_turns_);
   int farthest = 0;
   for (int i = 0; i < rod_.nodes(); ++i)
     if (across(i).norm() > across(farthest).norm() + 1e-9) farthest = i;
@@ -91,7 +92,16 @@ void RodModel::choose_pin(const Vector& x) {
   }
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
+  for (int i = 0; i < angles(); ++i) blocks.push_back(rod_.angle(i));
   equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
+}
+
+void RodModel::set_tied() {
+  if (!parameters_.twist) return;
+  tied_angle_ = finish_angle_ = accepted_.back().x[rod_.angle(rod_.segments() - 1)];
+  finish_turns_ = parameters_.finish_turns;
+  pin_.node = -1;
+  choose_pin(accepted_.back().x);
 }
 
 /// dx/debar of the newest state: H dx = -dg/dgrips, with the grips' effect on the gradient g taken
@@ -142,6 +152,7 @@ Vector RodModel::predict(double ebar) const {
     }
   }
   place_grips(rod_, end_to_end(ebar), x);
+  if (!finish_turns_) x[rod_.angle(rod_.segments() - 1)] = finish_angle_;
   return x;
 }
 
@@ -192,6 +203,10 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   energy_by_effect_ = equations_->assembler.energy_by_effect();
 
   StepRow row;
+  if (parameters_.twist) {
+    source_ = carried_frames(rod_, source_, result.x);
+    row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied_angle_;
+  }
   row.tension = tension_;
   row.energy = result.energy;
   row.residual = result.residual / force_scale_;
@@ -219,6 +234,10 @@ RodState RodModel::state() const {
   state.s = rod_.arc_length();
   state.curvature = curvature(rod_, now.x);
   state.stretch = stretch(rod_, now.x);
+  if (parameters_.twist) {
+    state.twist_angle = twist_angles(rod_, source_, now.x);
+    state.twist = twist_rate(rod_, state.twist_angle);
+  }
   if (effects_.contact) state.contact_force = contact_force(rod_, effects_.contact->points(now.x));
   state.tension = tension_;
   state.writhe = writhe(state.nodes);

@@ -25,6 +25,11 @@ class RodModel final : public PathModel {
   /// Knot type of the start: what every later state must have.
   int determinant() const { return determinant_; }
 
+  /// The knot is tied: the finish end's turn is counted from here, and a clamped one held.
+  void set_tied();
+  /// Turns the held finish end about the pulling axis by `angle` [rad].
+  void turn_finish(double angle) { finish_angle_ += angle; }
+
   /// The newest accepted state in full.
   RodState state() const;
 
@@ -37,6 +42,7 @@ class RodModel final : public PathModel {
     double ebar;
     Vector x;
   };
+  int angles() const { return parameters_.twist ? rod_.segments() : 0; }
   double end_to_end(double ebar) const { return length_ - ebar; }
   void choose_pin(const Vector& x);
   Vector tangent(double ebar) const;
@@ -46,6 +52,9 @@ class RodModel final : public PathModel {
   Rod rod_;
   double length_, start_ebar_;
   int determinant_;
+  Frames source_;  ///< frames of the newest accepted state; empty without twist
+  bool finish_turns_ = true;
+  double tied_angle_ = 0, finish_angle_ = 0;  ///< of the last segment: when tied, when held [rad]
   RodEffects effects_;
   std::unique_ptr<Equations> equations_;
   struct Pin {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "rod1d/one_thread.h"
@@ -19,7 +20,10 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
 void check(const RodParameters& parameters) {
   if (parameters.friction != 0)
     throw std::invalid_argument("the rod does not simulate friction yet: leave friction out");
-  if (parameters.twist) throw std::invalid_argument("the rod does not simulate twist yet");
+  if (!parameters.finish_turns && !parameters.twist)
+    throw std::invalid_argument("a finish end that may not turn needs the effect twist");
+  if (parameters.finish_turns && parameters.finish_turn != 0)
+    throw std::invalid_argument("only a clamped finish end can be turned");
   if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");
   if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
 }
@@ -38,7 +42,18 @@ PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObser
   path.record.clear();
   PathObserver silent;
   silent.interrupted = observer.interrupted;
-  return follow(path, model, silent);
+  PathOutcome outcome = follow(path, model, silent);
+  if (outcome.status != PathStatus::finished) return outcome;
+  // The finish may turn while the knot is tied, so that the rod is free of twist when it is
+  // clamped.
+  model.set_tied();
+  path.waypoints = {parameters.path.waypoints.front()};
+  const int parts = static_cast<int>(std::ceil(std::abs(parameters.finish_turn) / 0.5));
+  for (int k = 0; k < parts && outcome.status == PathStatus::finished; ++k) {
+    model.turn_finish(parameters.finish_turn / parts);
+    outcome = follow(path, model, silent);
+  }
+  return outcome;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct RodParameters {
   double poissons_ratio = 0.5;  ///< B/C = 1 + nu
   Polyline start;            ///< tied start: any centerline of about the right length, ends along z
   bool finish_turns = true;  ///< finish end free to turn about the pulling axis
+  double finish_turn = 0;    ///< turn given to a clamped finish end once the knot is tied [rad]
   bool contact = true;
   bool twist = false;   ///< twist angles are unknowns
   double friction = 0;  ///< Coulomb coefficient; 0: no friction effect
@@ -32,6 +33,7 @@ struct RodState {
   std::vector<double> curvature;      ///< kappa D at the nodes
   std::vector<double> stretch;        ///< deformed over undeformed length, per segment
   std::vector<double> twist_angle;    ///< of the segments [rad]; empty without twist
+  std::vector<double> twist;          ///< twist per undeformed length at the nodes [1/D]; or empty
   std::vector<double> contact_force;  ///< contact force per length at the nodes [E D]
   double tension = 0;                 ///< [E D^2]
   double writhe = 0;

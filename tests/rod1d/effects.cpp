@@ -14,23 +14,28 @@ using namespace bight::rod1d;
 
 namespace {
 
-/// Every effect that a rod can have, on the same rod.
+/// Every effect that a rod can have, on the same rod: straight when free, or curved and twisted.
 struct EveryEffect {
   RodParameters parameters;
   Rod rod;
+  Frames source;
   RodEffects effects;
-  EveryEffect() {
+  explicit EveryEffect(bool curved) {
     parameters.segments = 170;
+    parameters.twist = true;
     rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
-    effects = make_effects(rod, parameters);
+    if (curved) {
+      rod.rest_curvature.assign(rod.nodes(), Vector2(0.06, -0.03));
+      rod.rest_twist.assign(rod.nodes(), 0.02);
+    }
+    effects = make_effects(rod, parameters, source);
     // A wide onset, so that a difference step stays inside it.
     effects.contact->set_law({0.3, 0.2});
   }
-  int coordinates() const { return 3 * rod.nodes(); }
 };
 
 Vector straight(const Rod& rod) {
-  Vector x = Vector::Zero(3 * rod.nodes());
+  Vector x = Vector::Zero(3 * rod.nodes() + rod.segments());
   const auto s = rod.arc_length();
   for (int i = 0; i < rod.nodes(); ++i) x[3 * i + 2] = s[i];
   return x;
@@ -39,9 +44,10 @@ Vector straight(const Rod& rod) {
 /// A loose overhand knot, drawn together in the plane across the axis until its braid touches.
 Vector knotted(const Rod& rod, double across) {
   const Polyline line = overhand_start(42.17, 28, rod.segments());
-  Vector x(3 * rod.nodes());
+  Vector x(3 * rod.nodes() + rod.segments());
   for (int i = 0; i < rod.nodes(); ++i)
     x.segment<3>(3 * i) = line[i].cwiseProduct(Vector3(across, across, 1));
+  for (int i = 0; i < rod.segments(); ++i) x[rod.angle(i)] = std::sin(0.2 * i);
   return x;
 }
 
@@ -67,39 +73,58 @@ std::vector<State> states(const Rod& rod) {
 }  // namespace
 
 TEST_CASE("derivatives of every effect of the rod converge with second order") {
-  EveryEffect every;
-  for (const State& state : states(every.rod))
+  const bool curved = GENERATE(false, true);
+  EveryEffect every(curved);
+  for (const State& state : states(every.rod)) {
+    // The tangents turn between the source and the state.
+    every.source = twist_free_frames(every.rod, shaken(state.x, 0.02));
     for (const auto& effect : every.effects.list) {
       INFO(state.name);
       effect->refresh(state.x);
       if (effect->name() == "contact" && std::string(state.name).find("rest") == std::string::npos)
         CHECK(effect->stencils() > 0);
-      test::check_derivatives(*effect, state.x, every.coordinates());
+      // Contact knows no angles.
+      const bool angles = effect->name() != "contact";
+      test::check_derivatives(*effect, state.x,
+                              3 * every.rod.nodes() + (angles ? every.rod.segments() : 0));
     }
+  }
 }
 
 TEST_CASE("a rigid motion changes no energy, and internal forces and torques balance") {
-  EveryEffect every;
+  const bool curved = GENERATE(false, true);
+  EveryEffect every(curved);
+  const Rod& rod = every.rod;
   const Matrix3 turn = Eigen::AngleAxisd(1.1, Vector3(1, -2, 0.4).normalized()).toRotationMatrix();
-  for (const State& state : states(every.rod))
+  for (const State& state : states(rod)) {
+    every.source = twist_free_frames(rod, state.x);
+    Vector moved = state.x;
+    for (int i = 0; i < rod.nodes(); ++i)
+      moved.segment<3>(3 * i) = turn * state.x.segment<3>(3 * i) + Vector3(3, -1, 7);
+    // Carrying leaves out the spin of the motion about the tangent: the angles take it.
+    const Frames carried = carried_frames(rod, every.source, moved);
+    for (int i = 0; i < rod.segments(); ++i) {
+      const Vector3 d = turn * every.source.normal[i];
+      moved[rod.angle(i)] += std::atan2(d.dot(carried.binormal(i)), d.dot(carried.normal[i]));
+    }
     for (const auto& effect : every.effects.list) {
       INFO(state.name << ", " << effect->name());
-      Vector moved = state.x;
-      for (int i = 0; i < every.rod.nodes(); ++i)
-        moved.segment<3>(3 * i) = turn * state.x.segment<3>(3 * i) + Vector3(3, -1, 7);
       const auto here = test::evaluate(*effect, state.x, Vector::Zero(state.x.size()));
       const auto there = test::evaluate(*effect, moved, Vector::Zero(state.x.size()));
       CHECK(there.energy == Approx(here.energy).epsilon(1e-9).margin(1e-20));
       Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
-      for (int i = 0; i < every.rod.nodes(); ++i) {
+      for (int i = 0; i < rod.nodes(); ++i) {
         const Vector3 g = here.gradient.segment<3>(3 * i);
         force += g;
         torque += state.x.segment<3>(3 * i).cross(g);
       }
+      for (int i = 0; i < rod.segments(); ++i)
+        torque += here.gradient[rod.angle(i)] * every.source.tangent[i];
       const double scale = here.gradient.cwiseAbs().sum() + 1e-12;
       CHECK(force.norm() < 1e-12 * scale);
       CHECK(torque.norm() < 1e-11 * scale);
     }
+  }
 }
 
 TEST_CASE("a folded or vanished segment is inadmissible") {

@@ -2,10 +2,12 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "mechanics/knot_type.h"
+#include "rod1d/measure.h"
 #include "rod1d/overhand.h"
 #include "rod1d/polyline.h"
 #include "rod1d/rod_model.h"
@@ -123,6 +125,59 @@ TEST_CASE("a state of another knot type is no solution") {
   const NewtonResult result = model.solve(guess, 28);
   CHECK_FALSE(result.ok());
   CHECK(result.reason == "a strand has passed through another");
+}
+
+TEST_CASE("a clamped finish turns writhe into twist, a free one does not") {
+  RodParameters parameters = tight_overhand(170, {28, 16});
+  parameters.path.record = {28, 16};
+  parameters.twist = true;
+  const RodResult free = run_rod(parameters);
+  parameters.finish_turns = false;
+  const RodResult clamped = run_rod(parameters);
+  REQUIRE(free.outcome.status == PathStatus::finished);
+  REQUIRE(clamped.outcome.status == PathStatus::finished);
+  const auto turns = [](const RodState& state) { return state.twist_angle.back() / (2 * M_PI); };
+  for (const RodState& state : free.states) CHECK(turns(state) == Approx(0).margin(1e-6));
+  CHECK(turns(clamped.states[0]) == Approx(0).margin(1e-5));
+  // Twist + writhe = link, of a rod whose tails go on along the axis.
+  const auto change_of_writhe = [](const RodResult& result) {
+    double value[2];
+    for (const int k : {0, 1}) {
+      Polyline line = result.states[k].nodes;
+      const Vector3 step(0, 0, 0.25);
+      for (int i = 0; i < 800; ++i) line.push_back(line.back() + step);
+      std::reverse(line.begin(), line.end());
+      for (int i = 0; i < 800; ++i) line.push_back(line.back() - step);
+      value[k] = writhe(line);
+    }
+    return value[1] - value[0];
+  };
+  CHECK(std::abs(change_of_writhe(clamped)) > 0.05);
+  CHECK(turns(clamped.states[1]) == Approx(-change_of_writhe(clamped)).epsilon(0.02));
+  CHECK(free.steps.back().end_turn == Approx(2 * M_PI * change_of_writhe(free)).epsilon(0.02));
+  CHECK(clamped.steps.back().end_turn == 0);
+  CHECK(clamped.steps.back().energy > free.steps.back().energy);
+}
+
+TEST_CASE("turning the clamped finish of a knot takes the torque that its twist says") {
+  RodParameters parameters = tight_overhand(170, {28});
+  parameters.twist = true;
+  parameters.finish_turns = false;
+  double energy[3];
+  for (const int k : {0, 1, 2}) {
+    parameters.finish_turn = 1.0 + 0.1 * k;
+    parameters.path.record = {28};
+    const RodResult result = run_rod(parameters);
+    REQUIRE(result.outcome.status == PathStatus::finished);
+    energy[k] = result.steps.back().energy;
+    CHECK(result.steps.back().end_turn == Approx(parameters.finish_turn));
+    if (k != 1) continue;
+    // An isotropic rod without friction carries a uniform twist.
+    const std::vector<double>& rate = result.states[0].twist;
+    for (size_t i = 1; i + 1 < rate.size(); ++i) CHECK(rate[i] == Approx(rate[1]).epsilon(1e-5));
+    energy[k] = rate[1] * M_PI / 64 / 1.5;  // C times the twist per length
+  }
+  CHECK((energy[2] - energy[0]) / 0.2 == Approx(energy[1]).epsilon(0.002));
 }
 
 TEST_CASE("what the rod cannot do is refused in words") {
