@@ -92,7 +92,7 @@ class Check {
       refuse("effects.twist", "a clamped finish end needs the rod's twist");
     if (scene_.finish_turns && scene_.finish_turn != 0)
       refuse("ends.turn", "only a finish end that is clamped can be turned");
-    if (scene_.finish_turn != 0 && scene_.solid)
+    else if (scene_.finish_turn != 0 && scene_.solid)
       refuse("ends.turn", "the solid does not simulate it yet: only for fidelities = [\"rod\"]");
   }
 
