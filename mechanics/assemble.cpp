@@ -82,7 +82,9 @@ bool touches_turn(const Unknowns& unknowns, std::span<const int> coordinates) {
 }  // namespace
 
 Assembler::Assembler(const Unknowns& unknowns, const EffectList& effects)
-    : unknowns_(unknowns), effects_(effects) {}
+    : unknowns_(unknowns), effects_(effects), chunk_(std::make_unique<Chunk>()) {}
+
+Assembler::~Assembler() = default;
 
 void Assembler::refresh(const Vector& x) {
   for (const auto& effect : effects_) effect->refresh(x);
@@ -98,7 +100,7 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
   if (order >= Order::gradient) gradient.setZero(x.size());
   if (order >= Order::hessian) std::fill(hessian_.value.begin(), hessian_.value.end(), 0.0);
 
-  Chunk chunk;
+  Chunk& chunk = *chunk_;
   double total = 0;
   bool covered = true;
   for (const auto& effect : effects_) {
@@ -114,9 +116,9 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
         const size_t m = coordinates.size();
         entry.gradient.assign(order >= Order::gradient ? m : 0, 0.0);
         entry.hessian.assign(order >= Order::hessian ? m * m : 0, 0.0);
-        entry.slot = {0.0, entry.gradient.data(), entry.hessian.data()};
+        entry.slot = {0.0, entry.gradient.data(), entry.hessian.data(), false};
         effect->element(x, begin + k, order, entry.slot);
-        if (order < Order::hessian) continue;
+        if (order < Order::hessian || entry.slot.empty) continue;
         if (touches_turn(unknowns_, coordinates)) {
           carry(unknowns_, coordinates, x, entry);
         } else {
@@ -126,7 +128,7 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
       }
       for (int k = 0; k < chunk.used; ++k) {
         sum += chunk.entries[k].slot.energy;
-        if (order < Order::gradient) continue;
+        if (order < Order::gradient || chunk.entries[k].slot.empty) continue;
         const auto coordinates = effect->coordinates(begin + k);
         for (size_t i = 0; i < coordinates.size(); ++i)
           gradient[coordinates[i]] += chunk.entries[k].gradient[i];
@@ -158,6 +160,7 @@ bool Assembler::scatter(const Chunk& chunk, int thread, int threads) {
   std::vector<Run> runs;
   for (int k = 0; k < chunk.used; ++k) {
     const auto& entry = chunk.entries[k];
+    if (entry.slot.empty) continue;
     const int m = static_cast<int>(entry.unknown.size());
     runs.clear();
     for (int i = 0; i < m; ++i) {

@@ -22,6 +22,7 @@ using EffectList = std::vector<std::unique_ptr<Effect>>;
 class Assembler {
  public:
   Assembler(const Unknowns& unknowns, const EffectList& effects);
+  ~Assembler();
 
   /// Lets the effects find their stencils for x. Call it before evaluating at a new x.
   void refresh(const Vector& x);
@@ -56,6 +57,7 @@ class Assembler {
   std::vector<int> block_start_, block_row_, block_offset_;
   int pattern_version_ = 0;
   std::map<std::string, double> energy_by_effect_;
+  std::unique_ptr<Chunk> chunk_;  ///< kept, since it is allocated memory all over
 };
 
 }  // namespace bight

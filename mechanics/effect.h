@@ -28,6 +28,7 @@ struct ElementSlot {
   double energy = 0;
   double* gradient = nullptr;
   double* hessian = nullptr;
+  bool empty = false;  ///< set by an element that adds nothing: neither energy nor derivatives
 
   template <int N>
   void set(const Element<N>& element, Order order) {

@@ -10,6 +10,18 @@ namespace bight {
 
 namespace {
 
+int kind(Ordering ordering) {
+  switch (ordering) {
+    case Ordering::natural:
+      return CHOLMOD_NATURAL;
+    case Ordering::minimum_degree:
+      return CHOLMOD_AMD;
+    case Ordering::dissection:
+      break;
+  }
+  return CHOLMOD_METIS;
+}
+
 /// CHOLMOD's view of a matrix; it does not write to what it is shown.
 cholmod_sparse view(const SymmetricMatrix& matrix) {
   cholmod_sparse a{};
@@ -30,8 +42,10 @@ cholmod_sparse view(const SymmetricMatrix& matrix) {
 /// Runs f with every OpenMP loop inside it on one thread. CHOLMOD asks for four threads per
 /// supernode, whatever the machine has, and OpenBLAS follows; on two cores their barriers cost 1.5
 /// to 20 times the factorisation itself. Inside an active parallel region nested ones are serial.
+/// A simplicial factor has no such loops, and may be so small that a region would cost more.
 template <class F>
-void on_one_thread(F&& f) {
+void on_one_thread(const cholmod_factor& factor, F&& f) {
+  if (!factor.is_super) return f();
 #pragma omp parallel num_threads(2)
 #pragma omp single
   f();
@@ -71,7 +85,7 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 void SparseCholesky::analyse(const SymmetricMatrix& matrix, Ordering ordering) {
   cholmod_common& common = package_->common;
-  common.method[0].ordering = ordering == Ordering::natural ? CHOLMOD_NATURAL : CHOLMOD_METIS;
+  common.method[0].ordering = kind(ordering);
   cholmod_free_factor(&package_->factor, &common);
   cholmod_sparse a = view(matrix);
   package_->factor = cholmod_analyze(&a, &common);
@@ -85,7 +99,8 @@ bool SparseCholesky::factor(const SymmetricMatrix& matrix, double shift) {
   cholmod_common& common = package_->common;
   cholmod_sparse a = view(matrix);
   double beta[2] = {shift, 0};
-  on_one_thread([&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
+  on_one_thread(*package_->factor,
+                [&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
   if (common.status == CHOLMOD_OUT_OF_MEMORY)
     throw std::runtime_error("sparse Cholesky: out of memory");
   if (common.status != CHOLMOD_OK || package_->factor->minor < a.nrow) return false;
@@ -106,7 +121,7 @@ Vector SparseCholesky::solve(const Vector& right_hand_side) const {
   b.x = const_cast<double*>(right_hand_side.data());
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
-  on_one_thread([&] {
+  on_one_thread(*package_->factor, [&] {
     cholmod_solve2(CHOLMOD_A, package_->factor, &b, nullptr, &package_->solution, nullptr,
                    &package_->work_y, &package_->work_e, &package_->common);
   });

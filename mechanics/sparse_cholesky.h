@@ -18,8 +18,9 @@ struct SymmetricMatrix {
 };
 
 /// Natural: keep the order of the unknowns (a rod without contact is banded along its length).
-/// Dissection: METIS on the pattern (contact couples far parts of the rod).
-enum class Ordering { natural, dissection };
+/// Minimum degree: AMD on the pattern (a rod's contact couples far parts of it), quickly found.
+/// Dissection: METIS on the pattern (a solid).
+enum class Ordering { natural, minimum_degree, dissection };
 
 /// Sparse Cholesky factorisation of a symmetric positive definite matrix: CHOLMOD's door.
 class SparseCholesky {

@@ -46,7 +46,7 @@ struct RodModel::Equations {
             const EffectList& effects)
       : unknowns(blocks, static_cast<int>(held.size()), held),
         assembler(unknowns, effects),
-        system{assembler, cholesky, Ordering::dissection,
+        system{assembler, cholesky, Ordering::minimum_degree,
                [this](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }} {}
 };
 
@@ -122,7 +122,7 @@ Vector RodModel::tangent(double ebar) const {
   const Unknowns& unknowns = equations_->unknowns;
   const Vector change = unknowns.reduce(now.x, (gradient[1] - gradient[0]) / (2 * h));
   SparseCholesky cholesky;
-  cholesky.analyse(assembler.hessian(), Ordering::dissection);
+  cholesky.analyse(assembler.hessian(), Ordering::minimum_degree);
   if (!cholesky.factor(assembler.hessian())) return now.x;
   return now.x + (ebar - now.ebar) * unknowns.expand(now.x, -cholesky.solve(change));
 }

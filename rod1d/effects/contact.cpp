@@ -10,14 +10,18 @@ namespace {
 /// A tube that is bent as much as it can be (curvature 2/D) meets itself after pi/2 D of arc, so
 /// nearer parts of the rod are no pair [D].
 constexpr double exclusion = 1.5;
-/// Pairs are looked for up to this gap, again when a node has moved by `search_slack` [D].
+/// Segments are looked for up to this gap, again when a node has moved by `search_slack` [D].
 constexpr double search_gap = 0.8, search_slack = 0.2;
 constexpr double known_gap = search_gap - 2 * search_slack;
-/// Pairs nearer than this are given room in the Hessian's pattern [D].
-constexpr double pattern_gap = 0.03;
+/// Pairs of points are listed that are this much beyond touching, again when a node has moved by
+/// half of it [D].
+constexpr double list_slack = 0.05;
+/// Segments nearer than this are given room in the Hessian's pattern [D].
+constexpr double pattern_gap = 0.08;
 /// Gap below which no iteration may bring a pair [D].
 constexpr double deepest_gap = -0.15;
 
+/// Positions of the quadrature points of a segment.
 using Points = std::vector<Vector3>;
 
 void place(const SegmentSamples& samples, const double* nodes, Points& points) {
@@ -27,108 +31,126 @@ void place(const SegmentSamples& samples, const double* nodes, Points& points) {
     points[i] = x * Eigen::Map<const Eigen::Vector4d>(samples.value[i].data());
 }
 
-/// Calls `visit(i, j, d, distance)` for all p[i] and q[j] nearer than `reach`, d from j to i.
-/// Looking at all of a row at once is faster than being clever: it is done in vector registers.
+Eigen::Matrix<double, 24, 1> gather(const Vector& x, const std::array<int, 24>& coordinates) {
+  Eigen::Matrix<double, 24, 1> values;
+  for (int k = 0; k < 24; ++k) values[k] = x[coordinates[k]];
+  return values;
+}
+
+/// Calls `visit(pair, d, distance)` for the pairs that touch, d from j to i.
 template <class Visit>
-void for_near(const Points& p, const Points& q, double reach, Visit&& visit) {
-  thread_local Eigen::ArrayXd x, y, z, square;
-  const auto n = static_cast<Eigen::Index>(q.size());
-  x.resize(n), y.resize(n), z.resize(n), square.resize(n);
-  for (Eigen::Index j = 0; j < n; ++j) x[j] = q[j].x(), y[j] = q[j].y(), z[j] = q[j].z();
-  const double limit = reach * reach;
-  for (size_t i = 0; i < p.size(); ++i) {
-    square = (x - p[i].x()).square() + (y - p[i].y()).square() + (z - p[i].z()).square();
-    if (square.minCoeff() >= limit) continue;
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (square[j] < limit)
-        visit(i, static_cast<size_t>(j), Vector3(p[i] - q[j]), std::sqrt(square[j]));
+void for_touching(std::span<const PointPair> pairs, const Points& p, const Points& q,
+                  const ContactLaw& law, Visit&& visit) {
+  const double reach = 1 + 0.5 * law.onset, limit = reach * reach;
+  for (const PointPair& at : pairs) {
+    const Vector3 d = p[at.i] - q[at.j];
+    const double square = d.squaredNorm();
+    if (square < limit) visit(at, d, std::sqrt(square));
   }
 }
 
-/// The same for the points that touch, `apart` along the rod at least.
-template <class Visit>
-void for_touching(const SegmentSamples& a, const SegmentSamples& b, const Points& p,
-                  const Points& q, const ContactLaw& law, double apart, Visit&& visit) {
-  for_near(p, q, 1 + 0.5 * law.onset, [&](size_t i, size_t j, const Vector3& d, double distance) {
-    if (std::abs(a.arc[i] - b.arc[j]) > apart) visit(i, j, d, distance);
-  });
-}
+using Block = Eigen::Matrix<double, 1, 9>;  ///< a 3 x 3 block, column by column
 
-/// What presses on one point: sums over the points of the other segment.
+/// What presses on one point: force and stiffness.
 struct PointSums {
   bool touches = false;
-  Vector3 force = Vector3::Zero();
-  Matrix3 stiffness = Matrix3::Zero();
-  /// Stiffness by nodes of the other segment (rows) and by the entries of a 3 x 3 block.
-  Eigen::Matrix<double, 4, 9> across = Eigen::Matrix<double, 4, 9>::Zero();
+  Vector3 force;
+  Matrix3 stiffness;
+
+  void add(const Vector3& f, const Matrix3& k) {
+    if (!touches) force.setZero(), stiffness.setZero();
+    touches = true;
+    force += f;
+    stiffness += k;
+  }
 };
 
-/// Adds what presses on the points of one segment to the rows of its four nodes, from `first` on.
-void collect(const SegmentSamples& samples, const std::vector<PointSums>& sums, int first,
-             Order order, Element<24>& out) {
+/// Sums over the points of one segment, spread over its four nodes by the weights w of each.
+struct NodeSums {
+  Eigen::Matrix<double, 3, 4> force = Eigen::Matrix<double, 3, 4>::Zero();
   Eigen::Matrix<double, 16, 9> stiffness = Eigen::Matrix<double, 16, 9>::Zero();
-  for (size_t i = 0; i < sums.size(); ++i) {
-    if (!sums[i].touches) continue;
-    const Eigen::Map<const Eigen::Vector4d> w(samples.value[i].data());
-    for (int k = 0; k < 4; ++k) out.gradient.segment<3>(first + 3 * k) += w[k] * sums[i].force;
-    if (order == Order::gradient) continue;
+
+  void add(const std::array<double, 4>& weights, const PointSums& sums, Order order) {
+    const Eigen::Map<const Eigen::Vector4d> w(weights.data());
+    force += sums.force * w.transpose();
+    if (order < Order::hessian) return;
     const Eigen::Matrix4d ww = w * w.transpose();
     stiffness += Eigen::Map<const Eigen::Matrix<double, 16, 1>>(ww.data()) *
-                 Eigen::Map<const Eigen::Matrix<double, 1, 9>>(sums[i].stiffness.data());
+                 Eigen::Map<const Block>(sums.stiffness.data());
   }
-  if (order == Order::gradient) return;
-  for (int k = 0; k < 4; ++k)
-    for (int l = 0; l < 4; ++l)
-      for (int c = 0; c < 9; ++c)
-        out.hessian(first + 3 * k + c % 3, first + 3 * l + c / 3) = stiffness(4 * l + k, c);
-}
+};
 
 }  // namespace
 
-Element<24> contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
-                            const SegmentSamples& b, double apart, const ContactLaw& law,
-                            Order order) {
-  Element<24> out;
+void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
+                     const SegmentSamples& b, std::span<const PointPair> pairs,
+                     const ContactLaw& law, Order order, ElementSlot& slot) {
   thread_local Points p, q;
-  thread_local std::vector<PointSums> sums_p, sums_q;
+  thread_local std::vector<PointSums> on_q;
   place(a, x.data(), p);
   place(b, x.data() + 12, q);
-  sums_p.assign(p.size(), {}), sums_q.assign(q.size(), {});
   const double weight = a.spacing * b.spacing;
+  if (order == Order::energy) {
+    for_touching(pairs, p, q, law, [&](const PointPair&, const Vector3&, double distance) {
+      slot.energy += weight * law.energy(distance - 1);
+    });
+    return;
+  }
+
   // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They
-  // are summed by points first, which share their nodes' weights.
-  for_touching(a, b, p, q, law, apart, [&](size_t i, size_t j, const Vector3& d, double distance) {
+  // are summed by points first, which share their nodes' weights; `across` by the point i on a, by
+  // nodes of b (rows) and the entries of a block.
+  on_q.resize(std::max(on_q.size(), q.size()));
+  for (size_t j = 0; j < q.size(); ++j) on_q[j].touches = false;
+  NodeSums on_a, on_b;
+  PointSums on_p;
+  Eigen::Matrix<double, 4, 9> across_p;
+  Eigen::Matrix<double, 4, 36> across = Eigen::Matrix<double, 4, 36>::Zero();
+  int current = -1;
+  const auto leave_point = [&] {
+    if (current < 0) return;
+    on_a.add(a.value[current], on_p, order);
+    if (order == Order::hessian)
+      across += Eigen::Map<const Eigen::Vector4d>(a.value[current].data()) *
+                Eigen::Map<const Eigen::Matrix<double, 1, 36>>(across_p.data());
+  };
+  for_touching(pairs, p, q, law, [&](const PointPair& at, const Vector3& d, double distance) {
+    if (at.i != current) {
+      leave_point();
+      current = at.i;
+      on_p.touches = false;
+      across_p.setZero();
+    }
     const double gap = distance - 1;
-    out.energy += weight * law.energy(gap);
-    if (order == Order::energy) return;
+    slot.energy += weight * law.energy(gap);
     const Vector3 n = d / distance;
     const double slope = weight * law.slope(gap), curvature = weight * law.curvature(gap);
-    sums_p[i].touches = sums_q[j].touches = true;
-    sums_p[i].force += slope * n;
-    sums_q[j].force -= slope * n;
-    if (order == Order::gradient) return;
     const Matrix3 m = (curvature - slope / distance) * n * n.transpose() +
                       (slope / distance) * Matrix3::Identity();
-    sums_p[i].stiffness += m;
-    sums_q[j].stiffness += m;
-    sums_p[i].across += Eigen::Map<const Eigen::Vector4d>(b.value[j].data()) *
-                        Eigen::Map<const Eigen::Matrix<double, 1, 9>>(m.data());
+    on_p.add(slope * n, m);
+    on_q[at.j].add(-slope * n, m);
+    across_p +=
+        Eigen::Map<const Eigen::Vector4d>(b.value[at.j].data()) * Eigen::Map<const Block>(m.data());
   });
-  if (order == Order::energy) return out;
-  collect(a, sums_p, 0, order, out);
-  collect(b, sums_q, 12, order, out);
-  if (order == Order::gradient) return out;
-  Eigen::Matrix<double, 4, 36> across = Eigen::Matrix<double, 4, 36>::Zero();
-  for (size_t i = 0; i < p.size(); ++i)
-    if (sums_p[i].touches)
-      across += Eigen::Map<const Eigen::Vector4d>(a.value[i].data()) *
-                Eigen::Map<const Eigen::Matrix<double, 1, 36>>(sums_p[i].across.data());
+  slot.empty = current < 0;
+  if (slot.empty) return;
+  leave_point();
+  for (size_t j = 0; j < q.size(); ++j)
+    if (on_q[j].touches) on_b.add(b.value[j], on_q[j], order);
+
+  Eigen::Map<Eigen::Matrix<double, 3, 8>> gradient(slot.gradient);
+  gradient.leftCols<4>() = on_a.force;
+  gradient.rightCols<4>() = on_b.force;
+  if (order == Order::gradient) return;
+  Eigen::Map<Eigen::Matrix<double, 24, 24>> hessian(slot.hessian);
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < 4; ++l)
-      for (int c = 0; c < 9; ++c)
-        out.hessian(3 * k + c % 3, 12 + 3 * l + c / 3) = -across(k, 4 * c + l);
-  out.hessian.bottomLeftCorner<12, 12>() = out.hessian.topRightCorner<12, 12>().transpose();
-  return out;
+      for (int c = 0; c < 9; ++c) {
+        const int row = 3 * k + c % 3, column = 3 * l + c / 3;
+        hessian(row, column) = on_a.stiffness(4 * l + k, c);
+        hessian(12 + row, 12 + column) = on_b.stiffness(4 * l + k, c);
+        hessian(row, 12 + column) = hessian(12 + column, row) = -across(k, 4 * c + l);
+      }
 }
 
 Contact::Contact(const Rod& rod, double spacing) : nodes_(rod.nodes()), arc_(rod.arc_length()) {
@@ -146,80 +168,112 @@ Contact::Contact(const Rod& rod, double spacing) : nodes_(rod.nodes()), arc_(rod
   }
 }
 
-Contact::Pair Contact::pair(int a, int b) const {
-  Pair out{a, b, 0, {}};
+void Contact::set_law(const ContactLaw& law) {
+  if (law.onset != law_.onset) listed_at_.resize(0);
+  law_ = law;
+}
+
+Contact::Stencil Contact::stencil(int a, int b) const {
+  Stencil out;
   for (int side = 0; side < 2; ++side)
     for (int k = 0; k < 4; ++k) {
       // A node beyond the end has no weight.
       const int node = std::clamp((side == 0 ? a : b) - 1 + k, 0, nodes_ - 1);
-      for (int c = 0; c < 3; ++c) out.coordinates[12 * side + 3 * k + c] = Rod::position(node) + c;
+      for (int c = 0; c < 3; ++c) out[12 * side + 3 * k + c] = Rod::position(node) + c;
     }
   return out;
 }
 
 double Contact::largest_move(const Vector& dx) const {
-  double square = 0;
-  for (int i = 0; i < nodes_; ++i)
-    square = std::max(square, dx.segment<3>(Rod::position(i)).squaredNorm());
-  return std::sqrt(square);
+  return std::sqrt(
+      Eigen::Map<const Eigen::Matrix3Xd>(dx.data(), 3, nodes_).colwise().squaredNorm().maxCoeff());
 }
 
 void Contact::element(const Vector& x, int i, Order order, ElementSlot& slot) const {
-  const Pair& at = touching_[i];
-  Eigen::Matrix<double, 24, 1> values;
-  for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]];
-  slot.set(contact_element(values, samples_[at.a], samples_[at.b], exclusion, law_, order), order);
+  const SegmentPair& at = listed_[i];
+  contact_element(gather(x, at.coordinates), samples_[at.a], samples_[at.b], pairs_of(at), law_,
+                  order, slot);
 }
 
-double Contact::smallest_gap(const Vector& x, const Pair& at) const {
-  thread_local Points p, q;
-  Eigen::Matrix<double, 24, 1> values;
-  for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]];
-  place(samples_[at.a], values.data(), p), place(samples_[at.b], values.data() + 12, q);
-  double smallest = 1 + pattern_gap;
-  for_near(p, q, smallest, [&](size_t, size_t, const Vector3&, double distance) {
-    smallest = std::min(smallest, distance);
+template <class Visit>
+void Contact::for_near_segments(const Vector& x, double gap, Visit&& visit) const {
+  const auto node = [&](int i) { return x.segment<3>(Rod::position(i)); };
+  const auto length = [&](int i) { return (node(i + 1) - node(i)).norm(); };
+  for (const ContactWindow& window : windows_) {
+    const int a = window.segment;
+    const double length_a = length(a);
+    for (int b = std::max(window.first, a + 1); b <= window.last; ++b) {
+      // The curve leaves its chord by less than an eighth of its length.
+      const double limit = 2 * (gap + 1 + 0.625 * (length_a + length(b)));
+      if ((node(a) + node(a + 1) - node(b) - node(b + 1)).squaredNorm() < limit * limit)
+        visit(a, b);
+    }
+  }
+}
+
+void Contact::list_pairs(const Vector& x) {
+  listed_at_ = x;
+  listed_.clear(), pairs_.clear();
+  deepest_ = known_gap;
+  const double list_gap = 0.5 * law_.onset + list_slack, reach = 1 + list_gap;
+  Points p, q;
+  for_near_segments(x, list_gap, [&](int a, int b) {
+    const SegmentSamples &of_a = samples_[a], &of_b = samples_[b];
+    SegmentPair found{a, b, pairs_.size(), 0, stencil(a, b)};
+    const auto values = gather(x, found.coordinates);
+    place(of_a, values.data(), p), place(of_b, values.data() + 12, q);
+    // So much nearer at most is the next point; and all of b is in a ball about its middle.
+    double longest = 0;
+    for (size_t j = 1; j < q.size(); ++j)
+      longest = std::max(longest, (q[j] - q[j - 1]).squaredNorm());
+    longest = std::sqrt(longest);
+    const double skip = 1 / std::max(longest, 1e-6);
+    const int n = static_cast<int>(q.size());
+    const Vector3 middle = q[n / 2];
+    const double around = reach + longest * (n / 2 + 1);
+    for (int i = 0; i < static_cast<int>(p.size()); ++i)
+      for (int j = (p[i] - middle).squaredNorm() < around * around ? 0 : n; j < n;) {
+        const double distance = (p[i] - q[j]).norm();
+        if (distance < reach) {
+          if (of_b.arc[j] - of_a.arc[i] > exclusion) {
+            pairs_.push_back({i, j});
+            deepest_ = std::min(deepest_, distance - 1);
+          }
+          ++j;
+        } else {
+          j += 1 + static_cast<int>(std::min((distance - reach) * skip, 1e6));
+        }
+      }
+    found.end = pairs_.size();
+    if (found.end > found.begin) listed_.push_back(found);
   });
-  return smallest - 1;
 }
 
 void Contact::refresh(const Vector& x) {
   if (searched_.size() == 0 || largest_move(x - searched_) > search_slack) {
     searched_ = x;
     windows_ = contact_windows(x, arc_, 1 + search_gap, exclusion);
+    listed_at_.resize(0);
   }
-  touching_.clear(), near_.clear();
-  const auto node = [&](int i) { return x.segment<3>(Rod::position(i)); };
-  for (const ContactWindow& window : windows_)
-    for (int b = std::max(window.first, window.segment + 1); b <= window.last; ++b) {
-      const int a = window.segment;
-      // The curve leaves its chord by less than an eighth of its length.
-      const double lengths = (node(a + 1) - node(a)).norm() + (node(b + 1) - node(b)).norm();
-      const double apart = 0.5 * (node(a) + node(a + 1) - node(b) - node(b + 1)).norm();
-      const double bound = apart - 0.625 * lengths - 1;
-      if (bound > known_gap) continue;
-      Pair found = pair(a, b);
-      found.gap = bound > pattern_gap ? bound : smallest_gap(x, found);
-      near_.push_back(found);
-      if (found.gap < 0.5 * law_.onset) touching_.push_back(found);
-    }
+  if (listed_at_.size() == 0 || largest_move(x - listed_at_) > 0.5 * list_slack) list_pairs(x);
 }
 
 void Contact::couplings(const std::function<void(std::span<const int>)>& couple) const {
-  for (const Pair& at : near_)
-    if (at.gap < pattern_gap) couple(at.coordinates);
+  for_near_segments(listed_at_, pattern_gap, [&](int a, int b) { couple(stencil(a, b)); });
 }
 
 double Contact::longest_step(const Vector& x, const Vector& dx) const {
+  const double move = largest_move(dx);
+  // Most steps are too short for any pair to get near the deepest gap.
+  if (2 * move + list_slack < deepest_ - deepest_gap) return 1;
   // Pairs that are not known are more than known_gap apart.
-  double longest = std::min(1.0, 0.5 * (known_gap - deepest_gap) / largest_move(dx));
+  double longest = std::min(1.0, 0.5 * (known_gap - deepest_gap) / move);
   Points p, q, dp, dq;
-  Eigen::Matrix<double, 24, 1> values, change;
-  for (const Pair& at : near_) {
-    for (int k = 0; k < 24; ++k)
-      values[k] = x[at.coordinates[k]], change[k] = dx[at.coordinates[k]];
-    place(samples_[at.a], values.data(), p), place(samples_[at.b], values.data() + 12, q);
-    place(samples_[at.a], change.data(), dp), place(samples_[at.b], change.data() + 12, dq);
+  for_near_segments(x, known_gap, [&](int a, int b) {
+    const Stencil coordinates = stencil(a, b);
+    const auto values = gather(x, coordinates), change = gather(dx, coordinates);
+    place(samples_[a], values.data(), p), place(samples_[b], values.data() + 12, q);
+    place(samples_[a], change.data(), dp), place(samples_[b], change.data() + 12, dq);
     // Every fourth point or so is enough to see two strands approach.
     for (size_t i = p.size() / 8; i < p.size(); i += 4)
       for (size_t j = q.size() / 8; j < q.size(); j += 4) {
@@ -229,24 +283,24 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
         const double room = std::max(distance - 1 - deepest_gap, 0.05);
         if (approach * longest > room) longest = room / approach;
       }
-  }
+  });
   return longest;
 }
 
 std::vector<ContactPoint> Contact::points(const Vector& x) const {
   std::vector<ContactPoint> list;
   Points p, q;
-  Eigen::Matrix<double, 24, 1> values;
-  for (const Pair& at : touching_) {
+  for (const SegmentPair& at : listed_) {
     const SegmentSamples &a = samples_[at.a], &b = samples_[at.b];
-    for (int k = 0; k < 24; ++k) values[k] = x[at.coordinates[k]];
+    const auto values = gather(x, at.coordinates);
     place(a, values.data(), p), place(b, values.data() + 12, q);
-    const auto inside = [](const SegmentSamples& s, size_t i) {
-      return (static_cast<double>(i) + 0.5) / static_cast<double>(s.arc.size());
+    const auto inside = [](const SegmentSamples& s, int i) {
+      return (i + 0.5) / static_cast<double>(s.arc.size());
     };
-    for_touching(a, b, p, q, law_, exclusion,
-                 [&](size_t i, size_t j, const Vector3&, double distance) {
-                   list.push_back({at.a, at.b, inside(a, i), inside(b, j), distance - 1,
+    for_touching(pairs_of(at), p, q, law_,
+                 [&](const PointPair& pair, const Vector3& d, double distance) {
+                   list.push_back({at.a, at.b, inside(a, pair.i), inside(b, pair.j), a.arc[pair.i],
+                                   b.arc[pair.j], d / distance, distance - 1,
                                    -a.spacing * b.spacing * law_.slope(distance - 1)});
                  });
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "mechanics/contact_law.h"
@@ -19,6 +20,11 @@ struct SegmentSamples {
   double spacing = 0;  ///< undeformed arc length that each stands for [D]
 };
 
+/// Two quadrature points, by their numbers inside their segments.
+struct PointPair {
+  int i, j;
+};
+
 /// Contact between two segments of the round tube, as a double integral over their centerlines:
 ///
 ///   W = sum over s, t of ds dt law(|p(s) - q(t)| - 1)   [E D^3]
@@ -27,18 +33,19 @@ struct SegmentSamples {
 /// one strand winds around the other with curvature 1/D (every point of the bend is nearest then,
 /// as in a tight knot), this is as smooth as the law, and needs no projection. The law is of short
 /// range, so that along a line of contact only points within sqrt(2 onset) of each other count.
-/// `exclusion`: points nearer than this along the rod do not touch. x: four nodes of either
-/// segment.
-Element<24> contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
-                            const SegmentSamples& b, double exclusion, const ContactLaw& law,
-                            Order order);
+/// `pairs`, in the order of i: holds all that touch. x: four nodes of either segment.
+void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
+                     const SegmentSamples& b, std::span<const PointPair> pairs,
+                     const ContactLaw& law, Order order, ElementSlot& slot);
 
-/// Two points of the rod that press on each other.
+/// Two points of the rod that press on each other: on a acts +force * normal, on b the opposite.
 struct ContactPoint {
   int segment_a = 0, segment_b = 0;
-  double u_a = 0, u_b = 0;  ///< place inside the segment, 0 to 1
-  double gap = 0;           ///< [D]
-  double force = 0;         ///< [E D^2]
+  double u_a = 0, u_b = 0;           ///< place inside the segment, 0 to 1
+  double s_a = 0, s_b = 0;           ///< undeformed arc length from the start of the rod [D]
+  Vector3 normal = Vector3::Zero();  ///< unit vector from b to a
+  double gap = 0;                    ///< [D]
+  double force = 0;                  ///< [E D^2]
 };
 
 /// Self-contact of the tube.
@@ -48,8 +55,8 @@ class Contact final : public Effect {
   Contact(const Rod& rod, double spacing);
 
   std::string_view name() const override { return "contact"; }
-  int stencils() const override { return static_cast<int>(touching_.size()); }
-  std::span<const int> coordinates(int i) const override { return touching_[i].coordinates; }
+  int stencils() const override { return static_cast<int>(listed_.size()); }
+  std::span<const int> coordinates(int i) const override { return listed_[i].coordinates; }
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override;
   void refresh(const Vector& x) override;
   void couplings(const std::function<void(std::span<const int>)>& couple) const override;
@@ -57,28 +64,39 @@ class Contact final : public Effect {
 
   const ContactLaw& law() const { return law_; }
   /// To be changed between solves only: it is part of the energy.
-  void set_law(const ContactLaw& law) { law_ = law; }
+  void set_law(const ContactLaw& law);
 
   /// Everything that touches at x, which was refreshed last.
   std::vector<ContactPoint> points(const Vector& x) const;
 
  private:
-  struct Pair {
+  using Stencil = std::array<int, 24>;
+  /// Two segments and their pairs of quadrature points that are nearer than `list_gap`.
+  struct SegmentPair {
     int a, b;
-    double gap;  ///< between quadrature points where it is small, otherwise less than that
-    std::array<int, 24> coordinates;
+    size_t begin, end;  ///< in pairs_
+    Stencil coordinates;
   };
-  Pair pair(int a, int b) const;
-  double smallest_gap(const Vector& x, const Pair& at) const;
+  std::span<const PointPair> pairs_of(const SegmentPair& at) const {
+    return {pairs_.data() + at.begin, at.end - at.begin};
+  }
+  Stencil stencil(int a, int b) const;
+  /// Calls `visit(a, b)` for the segments of windows_ that may be nearer at x than `gap`.
+  template <class Visit>
+  void for_near_segments(const Vector& x, double gap, Visit&& visit) const;
+  void list_pairs(const Vector& x);
   double largest_move(const Vector& dx) const;
 
   int nodes_;
-  std::vector<double> arc_;              ///< undeformed arc length of the nodes
   std::vector<SegmentSamples> samples_;  ///< by segment
+  std::vector<double> arc_;              ///< undeformed arc length of the nodes
   ContactLaw law_;
   Vector searched_;  ///< state for which windows_ were found
   std::vector<ContactWindow> windows_;
-  std::vector<Pair> touching_, near_;
+  Vector listed_at_;  ///< state for which pairs_ were listed
+  std::vector<SegmentPair> listed_;
+  std::vector<PointPair> pairs_;
+  double deepest_ = 0;  ///< smallest gap of a listed pair at listed_at_
 };
 
 }  // namespace bight::rod1d
