@@ -100,6 +100,8 @@ const std::vector<Key>& all_keys() {
        "First contact penalty per area, in E/D"},
       {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
        "Largest overlap allowed, in D; the penalty is stiffened until it is met"},
+      {"solid3d.symmetry", boolean, "", {}, {}, "true", "",
+       "Of a frictionless knot with a two-fold axis, simulate one half; the other is its image"},
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
        "Distance of contact samples on the surface, in D"},
   };

@@ -99,6 +99,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.contact_stiffness = values.number("solid3d.contact_stiffness");
   scene.solid_penetration = values.number("solid3d.penetration");
   scene.sample_spacing = values.number("solid3d.sample_spacing");
+  scene.symmetry = values.get<bool>("solid3d.symmetry");
   scene.text = values.toml();
   check_scene(scene, values, problems);
   problems.throw_if_any();
@@ -150,6 +151,7 @@ solid3d::SolidParameters solid_parameters(const Scene& scene) {
   solid.contact_stiffness = scene.contact_stiffness;
   solid.penetration = scene.solid_penetration;
   solid.sample_spacing = scene.sample_spacing;
+  solid.symmetry = scene.symmetry && scene.friction == 0;
   solid.path = path_from_seed(scene.path, scene.seed_ebar);
   return solid;
 }

@@ -101,7 +101,10 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
 
 Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
                    const Recorder& recorder) {
-  Json result = {{"cells", solid.cells}, {"unknowns", solid.unknowns}, {"effects", solid.effects}};
+  Json result = {{"cells", solid.cells},
+                 {"unknowns", solid.unknowns},
+                 {"one_half", solid.symmetric},
+                 {"effects", solid.effects}};
   result.update(path_numbers(solid.outcome, solid.steps));
   if (!solid.steps.empty())
     result["smallest_jacobian"] =

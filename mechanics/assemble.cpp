@@ -52,7 +52,7 @@ void carry(const Unknowns& unknowns, std::span<const int> coordinates, const Vec
   for (int i = 0; i < m; ++i) {
     const int t = unknowns.turn_of(coordinates[i]);
     if (t < 0) {
-      T(i, column[i]) = 1;
+      T(i, column[i]) = unknowns.sign(coordinates[i]);
       continue;
     }
     const Turn& turn = unknowns.turns()[t];
@@ -62,7 +62,7 @@ void carry(const Unknowns& unknowns, std::span<const int> coordinates, const Vec
     });
     const int axis = coordinates[i] - first;
     const Vector3 position = x.segment<3>(first);
-    T(i, turn_column[t]) = Unknowns::velocity(turn, position)[axis];
+    T(i, turn_column[t]) = unknowns.sign(turn.angle) * Unknowns::velocity(turn, position)[axis];
     second[turn_column[t]] += entry.gradient[i] * Unknowns::acceleration(turn, position)[axis];
   }
   const Eigen::Map<const Eigen::MatrixXd> H(entry.hessian.data(), m, m);
@@ -70,6 +70,18 @@ void carry(const Unknowns& unknowns, std::span<const int> coordinates, const Vec
   reduced.diagonal() += second;
   entry.hessian.assign(reduced.data(), reduced.data() + reduced.size());
   entry.unknown = std::move(unknown);
+}
+
+/// H' = S H S with the signs S of images.
+template <class Entry>
+void apply_signs(const Unknowns& unknowns, std::span<const int> coordinates, Entry& entry) {
+  const int m = static_cast<int>(coordinates.size());
+  Eigen::Map<Eigen::MatrixXd> H(entry.hessian.data(), m, m);
+  for (int i = 0; i < m; ++i)
+    if (unknowns.sign(coordinates[i]) < 0) {
+      H.row(i) = -H.row(i);
+      H.col(i) = -H.col(i);
+    }
 }
 
 bool touches_turn(const Unknowns& unknowns, std::span<const int> coordinates) {
@@ -124,6 +136,7 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
         } else {
           entry.unknown.resize(m);
           for (size_t i = 0; i < m; ++i) entry.unknown[i] = unknowns_.index(coordinates[i]);
+          if (unknowns_.has_images()) apply_signs(unknowns_, coordinates, entry);
         }
       }
       for (int k = 0; k < chunk.used; ++k) {

@@ -33,7 +33,14 @@ struct NewtonOptions {
   EnergyBound bound;
 };
 
-enum class NewtonStatus { converged, stalled, too_many_iterations, not_finite, no_descent };
+enum class NewtonStatus {
+  converged,
+  stalled,
+  too_many_iterations,
+  not_finite,
+  no_descent,
+  rejected  ///< solved, but the model does not accept the state
+};
 
 struct NewtonResult {
   NewtonStatus status = NewtonStatus::too_many_iterations;

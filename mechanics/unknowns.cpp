@@ -5,7 +5,7 @@
 namespace bight {
 
 Unknowns::Unknowns(std::vector<int> blocks, int coordinates, const std::vector<bool>& held,
-                   std::vector<Turn> turns)
+                   std::vector<Turn> turns, const std::vector<Image>& images)
     : coordinates_(coordinates), index_(held.size(), -1), turns_(std::move(turns)) {
   if (!turns_.empty()) turn_of_.assign(held.size(), -1);
   for (size_t t = 0; t < turns_.size(); ++t)
@@ -17,12 +17,19 @@ Unknowns::Unknowns(std::vector<int> blocks, int coordinates, const std::vector<b
   for (size_t b = 0; b + 1 < blocks.size(); ++b) {
     const int before = size_;
     for (int i = blocks[b]; i < blocks[b + 1]; ++i) {
-      if (held[i] || turn_of(i) >= 0) continue;
+      if (held[i] || turn_of(i) >= 0 || (!images.empty() && images[i].source >= 0)) continue;
       index_[i] = size_++;
       block_of_.push_back(static_cast<int>(block_start_.size()) - 1);
     }
     if (size_ > before) block_start_.push_back(size_);
   }
+  if (images.empty()) return;
+  sign_.assign(held.size(), 1.0);
+  for (int i = 0; i < coordinates; ++i)
+    if (images[i].source >= 0) {
+      index_[i] = index_[images[i].source];
+      sign_[i] = images[i].sign;
+    }
 }
 
 Vector3 Unknowns::velocity(const Turn& turn, const Vector3& position) {
@@ -34,20 +41,20 @@ Vector3 Unknowns::acceleration(const Turn& turn, const Vector3& position) {
 }
 
 Vector Unknowns::reduce(const Vector& x, const Vector& gradient) const {
-  Vector reduced(size_);
+  Vector reduced = Vector::Zero(size_);
   for (int i = 0; i < coordinates(); ++i)
-    if (index_[i] >= 0) reduced[index_[i]] = gradient[i];
+    if (index_[i] >= 0) reduced[index_[i]] += sign(i) * gradient[i];
   for (const Turn& turn : turns_)
     for (int first : turn.carried)
       reduced[index_[turn.angle]] +=
-          velocity(turn, x.segment<3>(first)).dot(gradient.segment<3>(first));
+          sign(turn.angle) * velocity(turn, x.segment<3>(first)).dot(gradient.segment<3>(first));
   return reduced;
 }
 
 Vector Unknowns::expand(const Vector& x, const Vector& step) const {
   Vector dx = Vector::Zero(x.size());
   for (int i = 0; i < coordinates(); ++i)
-    if (index_[i] >= 0) dx[i] = step[index_[i]];
+    if (index_[i] >= 0) dx[i] = sign(i) * step[index_[i]];
   for (const Turn& turn : turns_)
     for (int first : turn.carried)
       dx.segment<3>(first) = velocity(turn, x.segment<3>(first)) * dx[turn.angle];

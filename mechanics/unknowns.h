@@ -15,25 +15,36 @@ struct Turn {
   std::vector<int> carried;         ///< first coordinates (x of x, y, z) of the carried points
 };
 
+/// A coordinate that is `sign` times another one: the other half of a symmetric body.
+struct Image {
+  int source = -1;  ///< -1: the coordinate is no image
+  double sign = 1;
+};
+
 /// Which coordinates Newton moves, and how it numbers them. A coordinate is free (an unknown),
-/// held (its value is given), or carried by a turn (it follows the turn's angle).
+/// held (its value is given), an image of another one, or carried by a turn (it follows the turn's
+/// angle).
 ///
 /// Unknowns are numbered by blocks: the free coordinates of one node or one angle, adjacent in x.
 /// The pattern of the Hessian is kept by blocks.
 class Unknowns {
  public:
   /// `blocks`: first coordinate of every block, ascending, up to `coordinates`. Coordinates from
-  /// there on are internal.
+  /// there on are internal. `images`: empty, or one per coordinate; a source is no image itself.
   Unknowns(std::vector<int> blocks, int coordinates, const std::vector<bool>& held,
-           std::vector<Turn> turns = {});
+           std::vector<Turn> turns = {}, const std::vector<Image>& images = {});
 
   int size() const { return size_; }
   int blocks() const { return static_cast<int>(block_start_.size()) - 1; }
   /// Coordinates that are not internal.
   int coordinates() const { return coordinates_; }
 
-  /// Unknown number of a coordinate, -1 when held, carried or internal.
+  /// Unknown number of a coordinate, that of its source for an image; -1 when held, carried or
+  /// internal.
   int index(int coordinate) const { return index_[coordinate]; }
+  /// d coordinate / d unknown: -1 for some images, else 1.
+  double sign(int coordinate) const { return sign_.empty() ? 1 : sign_[coordinate]; }
+  bool has_images() const { return !sign_.empty(); }
   /// Which turn carries a coordinate, -1 for none.
   int turn_of(int coordinate) const { return turn_of_.empty() ? -1 : turn_of_[coordinate]; }
   const std::vector<Turn>& turns() const { return turns_; }
@@ -59,6 +70,7 @@ class Unknowns {
  private:
   int size_ = 0, coordinates_ = 0;
   std::vector<int> index_, turn_of_, block_start_, block_of_;
+  std::vector<double> sign_;  ///< empty without images
   std::vector<Turn> turns_;
 };
 

@@ -18,15 +18,18 @@ constexpr double contact_onset = 0.005;
 
 }  // namespace
 
-SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int internal_begin) {
+SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int internal_begin,
+                          int first_layer) {
   const NeoHookean material = NeoHookean::with_bulk_ratio(p.bulk_to_shear);
   const double bulk_modulus = p.bulk_to_shear * material.shear_modulus;
   Contact::Options contact;
   contact.sample_spacing = p.sample_spacing;
   contact.largest_move = p.largest_move;
+  contact.first_layer = first_layer;
 
   SolidEffects effects;
-  effects.strain = add<Strain>(effects.list, true, mesh, internal_begin, material, bulk_modulus);
+  effects.strain =
+      add<Strain>(effects.list, true, mesh, internal_begin, material, bulk_modulus, first_layer);
   effects.contact = add<Contact>(effects.list, p.contact, mesh,
                                  ContactLaw{p.contact_stiffness, contact_onset}, contact);
   return effects;

@@ -15,6 +15,8 @@ struct SolidEffects {
   Contact* contact = nullptr;  ///< in the list; null without contact
 };
 
-SolidEffects make_effects(const Mesh& mesh, const SolidParameters& parameters, int internal_begin);
+/// `first_layer`: energy only of the rod beyond it, where the rest is its image.
+SolidEffects make_effects(const Mesh& mesh, const SolidParameters& parameters, int internal_begin,
+                          int first_layer = 0);
 
 }  // namespace bight::solid3d

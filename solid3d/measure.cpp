@@ -62,7 +62,7 @@ SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x
   state.flattening = flattening(mesh, x);
   state.determinant = knot_determinant(state.centerline);
 
-  for (int cell = 0; cell < effects.strain->stencils(); ++cell) {
+  for (int cell = 0; cell < effects.strain->cells(); ++cell) {
     const auto s = effects.strain->stress(x, cell);
     const double mean = s.cauchy.trace() / 3;
     const Matrix3 deviator = s.cauchy - mean * Matrix3::Identity();

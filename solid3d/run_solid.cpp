@@ -23,8 +23,6 @@ constexpr double energy_tolerance = 1e-9;
 constexpr double energy_rise = 0.3;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
-/// A symmetric solve that takes longer than this is on a branch about to be lost.
-constexpr int max_symmetric_iterations = 25;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
 constexpr size_t kept_states = 3;  ///< for the predictor
@@ -37,47 +35,46 @@ class SolidPath : public PathModel {
             const SolidParameters& parameters)
       : mesh_(mesh),
         parameters_(parameters),
-        grip_(make_grip(mesh, start, parameters)),
+        symmetry_(parameters.symmetry ? TwoFold::find(mesh, start) : std::nullopt),
+        from_frame_(frame(mesh, start, symmetry_)),
+        grip_(make_grip(mesh, start, parameters, symmetry_.has_value())),
         internal_begin_(grip_.coordinates(mesh)),
-        effects_(make_effects(mesh, parameters, internal_begin_)),
-        unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()))),
+        effects_(make_effects(mesh, parameters, internal_begin_,
+                              symmetry_ ? symmetry_->first_layer() : 0)),
+        unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()),
+                                 symmetry_ ? &*symmetry_ : nullptr)),
         assembler_(unknowns_, effects_.list),
         system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
         tension_(parameters.expected_tension) {
+    if (symmetry_) {
+      whole_effects_ = make_effects(mesh, parameters, internal_begin_);
+      whole_assembler_.emplace(unknowns_, whole_effects_.list);
+    }
     // Dilatation and pressure begin at zero: from the swept positions they would be K times the
     // small volume errors of the sweep.
     Vector x = Vector::Zero(internal_begin_ + 2 * static_cast<int>(mesh.cells.size()));
-    for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = start[n];
+    const Eigen::Isometry3d to_frame = from_frame_.inverse();
+    for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = to_frame * start[n];
+    grip_.move(mesh, start_ebar, x);
+    if (symmetry_) symmetry_->impose(mesh, x);
     history_.push_back({start_ebar, std::move(x)});
-    if (grip_.start_turns) symmetry_ = TwoFold::find(mesh, start);
     determinant_ = knot_determinant(centerline(mesh, newest()));
-    system_.advance = [this](Vector& state, const Vector& dx) {
-      advance(state, dx);
-      if (symmetry_) symmetry_->impose(state, internal_begin_);
-    };
+    system_.advance = [this](Vector& state, const Vector& dx) { advance(state, dx); };
   }
 
   Vector predict(double ebar) const override {
     const Station& last = history_.back();
     Vector x = last.x;
-    const double de = ebar - last.ebar;
-    if (de != 0)
+    if (ebar != last.ebar)
       x = history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar);
-    hold_grips(x);
+    hold_grips(x, last.x);
     grip_.move(mesh_, ebar, x);
-    // The middle of a symmetric knot moves half as far as the finish.
-    move_pins(-0.5 * de, x);
-    if (symmetry_) symmetry_->impose(x, internal_begin_);
+    if (symmetry_) symmetry_->impose(mesh_, x);
     return x;
   }
 
   NewtonResult solve(const Vector& guess, double) override {
     NewtonResult result = newton(system_, guess, options(), observer_);
-    if (!result.ok() && symmetry_) {
-      // The symmetric branch is lost: go on without it.
-      symmetry_.reset();
-      result = newton(system_, guess, options(), observer_);
-    }
     for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
       const double overlap = effects_.contact->max_penetration();
       if (overlap <= parameters_.penetration) break;
@@ -86,7 +83,7 @@ class SolidPath : public PathModel {
       result = go_on(std::move(result));
     }
     if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
-      result.status = NewtonStatus::not_finite;
+      result.status = NewtonStatus::rejected;
       result.reason = "a strand has passed through another";
     }
     return result;
@@ -101,22 +98,29 @@ class SolidPath : public PathModel {
     if (history_.size() == kept_states) history_.erase(history_.begin());
     history_.push_back({ebar, result.x});
     gradient_ = result.gradient;
-    const auto tension = grip_.tension(mesh_, result.gradient);
-    tension_ = std::max(std::abs(tension.finish), 1e-6);
 
+    // Of a symmetric knot, half was solved; the whole is measured, without using the symmetry.
     StepRow row;
-    row.ebar = ebar;
-    row.tension = tension.finish;
+    Vector gradient = result.gradient;
     row.energy = result.energy;
-    row.residual = result.residual / tension_;
+    if (symmetry_) {
+      if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
+      whole_assembler_->refresh(newest());
+      row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);
+    }
+    const auto tension = grip_.tension(mesh_, gradient);
+    tension_ = std::max(std::abs(tension.finish), 1e-6);
+    row.ebar = ebar;
+    row.tension = 0.5 * (tension.finish + tension.start);
+    row.residual = largest_inner(gradient) / tension_;
     row.reaction_mismatch = std::abs(tension.finish - tension.start) / tension_;
     row.min_jacobian = 1;
-    for (int cell = 0; cell < effects_.strain->stencils(); ++cell)
+    for (int cell = 0; cell < effects_.strain->cells(); ++cell)
       row.min_jacobian =
           std::min(row.min_jacobian, effects_.strain->stress(newest(), cell).least_jacobian);
     if (effects_.contact) {
-      row.max_penetration = effects_.contact->max_penetration();
-      row.contact_pairs = effects_.contact->stencils();
+      row.max_penetration = whole().contact->max_penetration();
+      row.contact_pairs = whole().contact->stencils();
     }
     row.end_turn = grip_.turn(mesh_, newest());
     row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -124,37 +128,69 @@ class SolidPath : public PathModel {
   }
 
   SolidState state(double ebar) {
+    SolidState s = fields(mesh_, whole(), newest());
     // Seen from the clamped start.
-    SolidState s = fields(mesh_, effects_, newest());
-    const Matrix3 back =
-        Eigen::AngleAxisd(-grip_.start_turn(mesh_, newest()), Vector3::UnitZ()).toRotationMatrix();
-    const Vector3 axis = s.centerline.front();
+    const Eigen::Isometry3d seen =
+        from_frame_ * Eigen::AngleAxisd(-grip_.start_turn(mesh_, newest()), Vector3::UnitZ());
     for (Polyline* points : {&s.nodes, &s.centerline})
-      for (Vector3& p : *points) p = axis + back * (p - axis);
+      for (Vector3& p : *points) p = seen * p;
     s.ebar = ebar;
     s.tension = tension_;
-    s.energy_by_effect = assembler_.energy_by_effect();
+    s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
     return s;
   }
 
   int unknowns() const { return unknowns_.size(); }
+  bool symmetric() const { return symmetry_.has_value(); }
   const EffectList& effects() const { return effects_.list; }
   const std::map<std::string, double>& seconds() const { return system_.seconds; }
   void observe(NewtonObserver observer) { observer_ = std::move(observer); }
 
  private:
   const Vector& newest() const { return history_.back().x; }
+  const SolidEffects& whole() const { return symmetry_ ? whole_effects_ : effects_; }
+
+  /// Largest out-of-balance force on a node between the grips [E D^2].
+  double largest_inner(const Vector& gradient) const {
+    double largest = 0;
+    for (int n = mesh_.node(1, 0); n < mesh_.node(mesh_.layers() - 1, 0); ++n)
+      for (int c = 3 * n; c < 3 * n + 3; ++c)
+        if (unknowns_.index(c) >= 0 || symmetry_)
+          largest = std::max(largest, std::abs(gradient[c]));
+    return largest;
+  }
+
+  /// The model works in a frame with the pulling axis along z and z = 0 halfway between the ends; a
+  /// symmetry axis lies along x.
+  static Eigen::Isometry3d frame(const Mesh& mesh, const std::vector<Vector3>& start,
+                                 const std::optional<TwoFold>& symmetry) {
+    Eigen::Isometry3d from = Eigen::Isometry3d::Identity();
+    if (symmetry) {
+      from.translate(symmetry->origin());
+      from.rotate(Eigen::AngleAxisd(symmetry->angle(), Vector3::UnitZ()));
+    } else {
+      Vector3 halfway = Vector3::Zero();
+      for (int p = 0; p < mesh.points_per_layer(); ++p)
+        halfway += (start[mesh.node(0, p)] + start[mesh.node(mesh.layers() - 1, p)]) /
+                   (2 * mesh.points_per_layer());
+      from.translate(halfway);
+    }
+    return from;
+  }
 
   /// Without friction the knot may slide along the rod and, where the finish turns, revolve about
   /// the pulling axis while the rod rolls about its own, at no cost but what the mesh is uneven by.
-  /// Each is stopped at the middle section: its centre along z and across its radius, and a point
-  /// of its x axis sideways. A choice of place and angles among equals: in the middle of a
-  /// symmetric knot the pins carry no force; what the one along z carries elsewhere is seen as a
-  /// difference of the end tensions.
+  /// A symmetry excludes all three. Without one, each is stopped at the middle section: its centre
+  /// along z and across its radius, and a point of its x axis sideways. A choice of place and
+  /// angles among equals; what the pin along z carries is seen as a difference of the end tensions.
   static Grip make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
-                        const SolidParameters& parameters) {
+                        const SolidParameters& parameters, bool symmetric) {
     constexpr double off_axis = 0.3;  // of a section that can be pinned [D]
     Grip grip{parameters.finish_turns, false, {}};
+    if (symmetric) {
+      grip.start_turns = parameters.finish_turns;
+      return grip;
+    }
     const auto centre = [&](int layer) { return start[mesh.node(layer, mesh.section.centre[0])]; };
     const auto radius = [&](int layer) { return Vector2((centre(layer) - centre(0)).head<2>()); };
     int layer = mesh.layers() / 2;
@@ -183,7 +219,7 @@ class SolidPath : public PathModel {
 
   NewtonOptions options() const {
     NewtonOptions options;
-    options.max_iterations = symmetry_ ? max_symmetric_iterations : max_iterations;
+    options.max_iterations = max_iterations;
     options.force_tolerance = force_tolerance * tension_;
     options.energy_tolerance = energy_tolerance * tension_;
     options.largest_move = parameters_.largest_move;
@@ -200,7 +236,7 @@ class SolidPath : public PathModel {
     return result;
   }
 
-  /// Sections move rigidly through the exponential map, the turned finish about its axis.
+  /// Sections move rigidly through the exponential map, turned ends about their axis.
   void advance(Vector& x, const Vector& dx) const {
     const Vector before = x;
     advance_sections(mesh_, x, dx);
@@ -209,22 +245,16 @@ class SolidPath : public PathModel {
     for (const Turn& turn : unknowns_.turns())
       for (int first : turn.carried) x.segment<3>(first) = turned.segment<3>(first);
     hold_grips(x, before);
-  }
-
-  /// The middle of a symmetric knot moves half as far along z as the finish.
-  void move_pins(double along_z, Vector& x) const {
-    for (int c : grip_.pinned)
-      if (c % 3 == 2) x[c] += along_z;
+    if (symmetry_) symmetry_->impose(mesh_, x);
   }
 
   /// Held coordinates exactly as they were.
-  void hold_grips(Vector& x) const { hold_grips(x, newest()); }
   void hold_grips(Vector& x, const Vector& as) const {
     for (int c = 0; c < unknowns_.coordinates(); ++c)
       if (unknowns_.index(c) < 0 && unknowns_.turn_of(c) < 0) x[c] = as[c];
   }
 
-  /// Tangent predictor: the linear answer of the last tangent to the motion of the finish.
+  /// Tangent predictor: the linear answer of the last tangent to the motion of the ends.
   Vector follow_grip(double ebar) const {
     const Station& last = history_.back();
     constexpr double probe = 1e-6;  // [D]
@@ -232,7 +262,6 @@ class SolidPath : public PathModel {
     Vector moved = last.x, gradient;
     const double towards = de > 0 ? probe : -probe;
     grip_.move(mesh_, last.ebar + towards, moved);
-    move_pins(-0.5 * towards, moved);
     assembler_.assemble(moved, Order::gradient, gradient);
     const Vector rate =
         (unknowns_.reduce(moved, gradient) - unknowns_.reduce(last.x, gradient_)) / towards;
@@ -244,6 +273,8 @@ class SolidPath : public PathModel {
 
   const Mesh& mesh_;
   const SolidParameters& parameters_;
+  std::optional<TwoFold> symmetry_;  ///< then one half is simulated
+  Eigen::Isometry3d from_frame_;     ///< of the model, to where the start was given
   Grip grip_;
   int internal_begin_;
   SolidEffects effects_;
@@ -253,9 +284,10 @@ class SolidPath : public PathModel {
   System system_;
   double tension_;
   int determinant_ = 0;
-  std::optional<TwoFold> symmetry_;  ///< kept on the way, where the start and the ends have it
-  std::vector<Station> history_;     ///< the last accepted states, newest last
-  Vector gradient_;                  ///< by coordinates, at the newest
+  SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
+  std::optional<Assembler> whole_assembler_;
+  std::vector<Station> history_;  ///< the last accepted states, newest last
+  Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;
   Clock::time_point begin_ = Clock::now();
 };
@@ -269,6 +301,7 @@ SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, doubl
   model.observe(observer.on_iteration);
   result.unknowns = model.unknowns();
   result.cells = static_cast<int>(mesh.cells.size());
+  result.symmetric = model.symmetric();
   for (const auto& effect : model.effects()) result.effects.emplace_back(effect->name());
 
   Path path = parameters.path;

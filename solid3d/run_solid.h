@@ -15,6 +15,7 @@ namespace bight::solid3d {
 struct SolidParameters {
   double bulk_to_shear = 1000;  ///< K / mu_s
   bool finish_turns = true;     ///< finish end free to turn about the pulling axis
+  bool symmetry = true;         ///< of a start with a two-fold axis, simulate one half
   bool contact = true;
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
@@ -55,6 +56,7 @@ struct SolidResult {
   std::vector<StepRow> steps;
   std::vector<double> recorded;  ///< ebar of the states handed to on_record
   int unknowns = 0, cells = 0;
+  bool symmetric = false;  ///< one half was simulated, the other is its image
   std::vector<std::string> effects;
   std::map<std::string, double>
       seconds;  ///< by phase: relax, assembly, contact, factorisation, ...

@@ -48,8 +48,9 @@ void Contact::find_samples(const Vector& x) {
           surface_.evaluate(x, surface_.weights(surface_.around(patch), surface_.along(patch)));
 
   samples_.clear();
-  for (int patch = 0; patch < surface_.patches(); ++patch) {
+  for (int patch = surface_.patch(0, options_.first_layer); patch < surface_.patches(); ++patch) {
     if (near[patch].empty()) continue;
+    const bool on_first = options_.first_layer > 0 && surface_.along(patch) == options_.first_layer;
     const Vector2 extent = surface_.extent(patch);
     const int nu = std::max(1, static_cast<int>(std::lround(extent.x() / options_.sample_spacing)));
     const int nv = std::max(1, static_cast<int>(std::lround(extent.y() / options_.sample_spacing)));
@@ -59,6 +60,9 @@ void Contact::find_samples(const Vector& x) {
         sample.patch = patch;
         sample.local = {(i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5};
         sample.weight = 0.5 * surface_.area(patch) / (nu * nv);
+        // The patches of the first layer reach halfway before it.
+        if (on_first && sample.local.y() < -1e-12) continue;
+        if (on_first && sample.local.y() < 1e-12) sample.weight *= 0.5;
         const Vector3 at = position(x, sample);
         double least = std::numeric_limits<double>::max();
         for (int other : near[patch]) {

@@ -24,6 +24,7 @@ class Contact : public Effect {
     double sample_spacing = 0.05;  ///< [D]
     double exclusion = 1.5;        ///< neighbours along the rod closer than this never touch [D]
     double largest_move = 0.15;    ///< of a node in one Newton iteration [D]
+    int first_layer = 0;           ///< only the surface beyond this layer is sampled
   };
   Contact(const Mesh& mesh, ContactLaw law, Options options);
 

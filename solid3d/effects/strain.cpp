@@ -25,8 +25,12 @@ Matrix3 cofactor(const Matrix3& F) {
 
 }  // namespace
 
-Strain::Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus)
-    : material_(material), bulk_modulus_(bulk_modulus), internal_begin_(internal_begin) {
+Strain::Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus,
+               int first_layer)
+    : material_(material),
+      bulk_modulus_(bulk_modulus),
+      internal_begin_(internal_begin),
+      first_cell_(first_layer * static_cast<int>(mesh.section.quads.size())) {
   for (const auto& cell : mesh.cells) {
     HexNodes X;
     std::array<int, 24> coordinates;
@@ -57,7 +61,8 @@ double Strain::volume(const HexNodes& x, const HexReference& cell, HexNodes* gra
   return v;
 }
 
-void Strain::element(const Vector& x, int cell, Order order, ElementSlot& slot) const {
+void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slot) const {
+  const int cell = first_cell_ + stencil;
   const HexReference& ref = cells_[cell];
   const HexNodes positions = nodes(x, cell);
   const double theta_1 = x[internal_begin_ + 2 * cell], p = x[internal_begin_ + 2 * cell + 1];
@@ -115,7 +120,7 @@ void Strain::element(const Vector& x, int cell, Order order, ElementSlot& slot) 
 
 void Strain::recover(const Vector& x, Vector& dx) const {
 #pragma omp parallel for schedule(static)
-  for (int cell = 0; cell < stencils(); ++cell) {
+  for (int cell = 0; cell < cells(); ++cell) {
     HexNodes b;
     const double v = volume(nodes(x, cell), cells_[cell], &b);
     const double dv = (b.array() * nodes(dx, cell).array()).sum();
@@ -127,7 +132,7 @@ void Strain::recover(const Vector& x, Vector& dx) const {
 }
 
 void Strain::settle(Vector& x) const {
-  for (int cell = 0; cell < stencils(); ++cell) {
+  for (int cell = 0; cell < cells(); ++cell) {
     const int at = internal_begin_ + 2 * cell;
     x[at] = volume(nodes(x, cell), cells_[cell], nullptr) / cells_[cell].volume - 1;
     x[at + 1] = bulk_modulus_ * x[at];

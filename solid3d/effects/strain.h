@@ -21,13 +21,16 @@ namespace bight::solid3d {
 class Strain : public Effect {
  public:
   /// The positions of node n are coordinates 3n ...; the internal pair of cell c is at
-  /// internal_begin + 2c.
-  Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus);
+  /// internal_begin + 2c. Only cells beyond layer `first_layer` carry energy.
+  Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus,
+         int first_layer = 0);
 
   std::string_view name() const override { return "strain"; }
-  int stencils() const override { return static_cast<int>(cells_.size()); }
-  std::span<const int> coordinates(int cell) const override { return coordinates_[cell]; }
-  void element(const Vector& x, int cell, Order order, ElementSlot& slot) const override;
+  int stencils() const override { return cells() - first_cell_; }
+  std::span<const int> coordinates(int stencil) const override {
+    return coordinates_[static_cast<size_t>(first_cell_ + stencil)];
+  }
+  void element(const Vector& x, int stencil, Order order, ElementSlot& slot) const override;
   void recover(const Vector& x, Vector& dx) const override;
   void settle(Vector& x) const override;
 
@@ -39,6 +42,8 @@ class Strain : public Effect {
   };
   CellStress stress(const Vector& x, int cell) const;
 
+  int cells() const { return static_cast<int>(cells_.size()); }
+
  private:
   HexNodes nodes(const Vector& x, int cell) const;
   /// Current volume v and its gradient b = dv/dx.
@@ -46,7 +51,7 @@ class Strain : public Effect {
 
   NeoHookean material_;
   double bulk_modulus_;
-  int internal_begin_;
+  int internal_begin_, first_cell_;
   std::vector<HexReference> cells_;
   std::vector<std::array<int, 24>> coordinates_;
 };

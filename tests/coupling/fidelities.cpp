@@ -28,12 +28,14 @@ const rod1d::RodState& seed() {
   return state;
 }
 
-solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr) {
+solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr,
+                             bool symmetry = true) {
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
   solid3d::SolidParameters parameters;
   parameters.expected_tension = seed().tension;
   parameters.path.waypoints = {seed_ebar, to};
   parameters.path.record = {seed_ebar, to};
+  parameters.symmetry = symmetry;
   solid3d::SolidObserver observer;
   if (states) observer.on_record = [=](const auto& state) { states->push_back(state); };
   return solid3d::run_solid(mesh, sweep(mesh, seed()), seed_ebar, parameters, observer);
@@ -72,10 +74,12 @@ TEST_CASE("the solid tightens in balance, on one thread as on two") {
   omp_set_num_threads(2);
   const auto two = tighten(18, &states);
   REQUIRE(two.outcome.status == PathStatus::finished);
+  REQUIRE(two.symmetric);
   for (size_t i = 0; i < two.steps.size(); ++i) {
     const StepRow& row = two.steps[i];
     CAPTURE(row.ebar);
     CHECK(row.reaction_mismatch < 1e-6);
+    CHECK(row.residual < 1e-6);
     CHECK(row.max_penetration < 0.01);
     CHECK(row.min_jacobian > 0.5);
     if (i == 0) continue;
@@ -95,4 +99,24 @@ TEST_CASE("the solid tightens in balance, on one thread as on two") {
   REQUIRE(one.steps.size() == two.steps.size());
   for (size_t i = 0; i < one.steps.size(); ++i)
     CHECK(one.steps[i].tension == Approx(two.steps[i].tension).epsilon(1e-4));
+}
+
+TEST_CASE("half of a symmetric knot and its image are the whole knot") {
+  std::vector<solid3d::SolidState> half_states, whole_states;
+  const auto half = tighten(19.5, &half_states);
+  const auto whole = tighten(19.5, &whole_states, false);
+  REQUIRE(half.symmetric);
+  REQUIRE(!whole.symmetric);
+  CHECK(2 * half.unknowns < 1.01 * whole.unknowns);
+  REQUIRE(half.steps.size() == whole.steps.size());
+  for (size_t i = 0; i < half.steps.size(); ++i) {
+    CHECK(half.steps[i].tension == Approx(whole.steps[i].tension).epsilon(1e-5));
+    CHECK(half.steps[i].energy == Approx(whole.steps[i].energy).epsilon(1e-6));
+    CHECK(half.steps[i].contact_pairs == Approx(whole.steps[i].contact_pairs).epsilon(0.02));
+  }
+  REQUIRE(half_states.size() == whole_states.size());
+  for (size_t i = 0; i < half_states.size(); ++i)
+    for (const char* effect : {"strain", "contact"})
+      CHECK(half_states[i].energy_by_effect.at(effect) ==
+            Approx(whole_states[i].energy_by_effect.at(effect)).epsilon(1e-3));
 }

@@ -17,6 +17,7 @@ struct Problem {
   std::vector<int> blocks;
   std::vector<bool> held;
   Turn turn;
+  std::vector<Image> images;
   EffectList effects;
 
   Problem() {
@@ -40,16 +41,31 @@ struct Problem {
     for (int i = 0; i + 5 < points; ++i) springs.push_back({3 * i + 15, 3 * i, 0.5, 1.2});
     effects.push_back(std::make_unique<test::Springs>(springs));
   }
-  Unknowns unknowns() const { return Unknowns(blocks, static_cast<int>(x.size()), held, {turn}); }
+  Unknowns unknowns() const {
+    return Unknowns(blocks, static_cast<int>(x.size()), held, {turn}, images);
+  }
+  /// Two points become images of others under half a turn about x, their neighbours among them.
+  void fold() {
+    images.resize(x.size());
+    for (const auto& [image, source] : {std::pair{3, 4}, std::pair{5, 8}})
+      for (int c = 0; c < 3; ++c) {
+        images[3 * image + c] = {3 * source + c, c == 0 ? 1.0 : -1.0};
+        x[3 * image + c] = images[3 * image + c].sign * x[3 * source + c];
+      }
+  }
 };
 
 }  // namespace
 
 TEST_CASE(
-    "gradient and Hessian by unknowns are derivatives of the energy, turned points included") {
+    "gradient and Hessian by unknowns are derivatives of the energy, turned points and images "
+    "included") {
   Problem problem;
+  const bool folded = GENERATE(false, true);
+  CAPTURE(folded);
+  if (folded) problem.fold();
   const Unknowns unknowns = problem.unknowns();
-  CHECK(unknowns.size() == 3 * 10 - 3 - 1 + 1);
+  CHECK(unknowns.size() == 3 * 10 - 3 - 1 + 1 - (folded ? 6 : 0));
   Assembler assembler(unknowns, problem.effects);
   const int n = unknowns.size();
   const auto moved = [&](const Vector& step) {

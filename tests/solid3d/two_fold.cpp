@@ -1,0 +1,86 @@
+#include "solid3d/two_fold.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "solid3d/effects.h"
+#include "tests/derivatives.h"
+#include "tests/solid3d/shapes.h"
+
+using namespace bight;
+using namespace bight::solid3d;
+
+namespace {
+
+/// One turn and a bit of a helix about z, whose middle lies on a two-fold axis.
+struct Helix {
+  Mesh mesh = test::straight_mesh(12, 13.3, 1.0);
+  std::vector<Vector3> start;
+
+  Helix() {
+    const Vector x = test::helix_state(mesh, 2.0, 0.99, 0);
+    for (int n = 0; n < mesh.nodes(); ++n) start.push_back(x.segment<3>(3 * n));
+  }
+  Vector in_frame(const TwoFold& symmetry, int internal) const {
+    Vector x = Vector::Zero(3 * mesh.nodes() + internal);
+    const Matrix3 back = Eigen::AngleAxisd(-symmetry.angle(), Vector3::UnitZ()).toRotationMatrix();
+    for (int n = 0; n < mesh.nodes(); ++n)
+      x.segment<3>(3 * n) = back * (start[n] - symmetry.origin());
+    return x;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a helix has a two-fold axis through its middle, a shaken one has none") {
+  Helix helix;
+  REQUIRE(helix.mesh.layers() % 2 == 1);
+  const auto symmetry = TwoFold::find(helix.mesh, helix.start);
+  REQUIRE(symmetry);
+  CHECK(symmetry->first_layer() == helix.mesh.layers() / 2);
+  for (int n = 0; n < helix.mesh.nodes(); ++n) {
+    CHECK(symmetry->image(symmetry->image(n)) == n);
+    const int layer = n / helix.mesh.points_per_layer();
+    CHECK(symmetry->image(n) / helix.mesh.points_per_layer() == helix.mesh.layers() - 1 - layer);
+  }
+  helix.start[5].x() += 1e-4;
+  CHECK(!TwoFold::find(helix.mesh, helix.start));
+}
+
+TEST_CASE("imposing the symmetry leaves a symmetric state alone and makes another one symmetric") {
+  const Helix helix;
+  const TwoFold symmetry = *TwoFold::find(helix.mesh, helix.start);
+  const Vector x = helix.in_frame(symmetry, 0);
+  Vector imposed = x;
+  symmetry.impose(helix.mesh, imposed);
+  CHECK((imposed - x).cwiseAbs().maxCoeff() < 1e-10);
+
+  imposed = test::shaken(x, 3 * helix.mesh.nodes(), 0.01);
+  symmetry.impose(helix.mesh, imposed);
+  CHECK((imposed - x).cwiseAbs().maxCoeff() > 1e-3);
+  for (int n = 0; n < helix.mesh.nodes(); ++n) {
+    const Vector3 p = imposed.segment<3>(3 * n), q = imposed.segment<3>(3 * symmetry.image(n));
+    CHECK(p == Vector3(q.x(), -q.y(), -q.z()));
+  }
+}
+
+TEST_CASE("one half of a symmetric state carries half of every energy") {
+  const Helix helix;
+  const TwoFold symmetry = *TwoFold::find(helix.mesh, helix.start);
+  SolidParameters parameters;
+  parameters.bulk_to_shear = 20;
+  // Odd and even numbers of samples a patch: with and without samples on the symmetry plane.
+  parameters.sample_spacing = GENERATE(0.11, 0.15);
+  const int internal_begin = 3 * helix.mesh.nodes();
+  const Vector x = helix.in_frame(symmetry, 2 * static_cast<int>(helix.mesh.cells.size()));
+  const auto whole = make_effects(helix.mesh, parameters, internal_begin);
+  const auto half = make_effects(helix.mesh, parameters, internal_begin, symmetry.first_layer());
+  for (size_t i = 0; i < whole.list.size(); ++i) {
+    CAPTURE(whole.list[i]->name());
+    const Vector zero = Vector::Zero(x.size());
+    const double energy = test::evaluate(*whole.list[i], x, zero).energy;
+    REQUIRE(energy > 0);
+    CHECK(2 * test::evaluate(*half.list[i], x, zero).energy == Approx(energy).epsilon(1e-9));
+    CHECK(half.list[i]->stencils() < 0.6 * whole.list[i]->stencils());
+  }
+}
