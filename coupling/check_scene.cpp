@@ -82,7 +82,7 @@ class Check {
 
   void resolution() {
     const double segment = scene_.slenderness() / scene_.segments;
-    if (segment > 0.5)
+    if (segment > 0.5 && !scene_.follow_knot)
       warn("rod1d.segments",
            fmt::format("segments of {:.2g} D are too long for smooth contact", segment));
   }
@@ -97,6 +97,9 @@ class Check {
   }
 
   void effects() {
+    if (scene_.follow_knot && (scene_.friction > 0 || scene_.twist))
+      refuse("rod1d.follow_knot",
+             "friction and twist belong to material points, which nodes must not leave");
     bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {

@@ -83,8 +83,10 @@ const std::vector<Key>& all_keys() {
       {"path.speed", quantity, "m/s", above(0), {}, "0.0005", "",
        "Speed of the moving end; used by effects that know time"},
 
-      {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter, even, at least 60",
+      {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter, even, at least 60, at most 400 if they follow the knot",
        "Segments of the centerline"},
+      {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without friction and twist, else false",
+       "Nodes follow the knot along the rod, densest where strands are near each other"},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
        "Largest overlap of strands aimed at, in D"},
 

@@ -42,7 +42,10 @@ void derive_defaults(Values& values) {
   derive(values, "solid3d.seed_ebar", waypoints.front());
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
-  derive(values, "rod1d.segments", std::max(60.0, 2 * std::round(4 * slenderness)));
+  derive(values, "rod1d.follow_knot",
+         values.number("effects.friction") == 0 && !values.get<bool>("effects.twist"));
+  const double most = values.get<bool>("rod1d.follow_knot") ? 400 : 1e5;
+  derive(values, "rod1d.segments", std::clamp(2 * std::round(4 * slenderness), 60.0, most));
 }
 
 // The first waypoint after which the path has come by the seed.
@@ -91,6 +94,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.path.record = values.get<std::vector<double>>("path.record");
   scene.path.max_step = values.number("path.max_step");
   scene.segments = static_cast<int>(values.number("rod1d.segments"));
+  scene.follow_knot = values.get<bool>("rod1d.follow_knot");
   scene.rod_penetration = values.number("rod1d.penetration");
   scene.section_elements = static_cast<int>(values.number("solid3d.section_elements"));
   scene.seed_ebar = values.number("solid3d.seed_ebar");
@@ -135,6 +139,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.twist = scene.twist;
   rod.friction = scene.friction;
   rod.segments = scene.segments;
+  rod.follow_knot = scene.follow_knot;
   rod.penetration = scene.rod_penetration;
   rod.path = scene.path;
   if (!scene.rod) rod.path = path_to_seed(scene.path, scene.seed_ebar);

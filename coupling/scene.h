@@ -25,6 +25,7 @@ struct Scene {
   double friction = 0;
   Path path;
   int segments = 0;
+  bool follow_knot = true;
   double rod_penetration = 0;
   int section_elements = 0;
   double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;

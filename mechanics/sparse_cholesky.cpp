@@ -1,6 +1,7 @@
 #include "mechanics/sparse_cholesky.h"
 
 #include <cholmod.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cassert>
@@ -41,14 +42,15 @@ cholmod_sparse view(const SymmetricMatrix& matrix) {
 
 /// Runs f with every OpenMP loop inside it on one thread. CHOLMOD asks for four threads per
 /// supernode, whatever the machine has, and OpenBLAS follows; on two cores their barriers cost 1.5
-/// to 20 times the factorisation itself. Inside an active parallel region nested ones are serial.
-/// A simplicial factor has no such loops, and may be so small that a region would cost more.
+/// to 20 times the factorisation itself. Without active levels every region is serial.
 template <class F>
-void on_one_thread(const cholmod_factor& factor, F&& f) {
-  if (!factor.is_super) return f();
-#pragma omp parallel num_threads(2)
-#pragma omp single
+void on_one_thread(F&& f) {
+  const int threads = omp_get_max_threads(), levels = omp_get_max_active_levels();
+  omp_set_num_threads(1);
+  omp_set_max_active_levels(0);
   f();
+  omp_set_max_active_levels(levels);
+  omp_set_num_threads(threads);
 }
 
 }  // namespace
@@ -99,8 +101,7 @@ bool SparseCholesky::factor(const SymmetricMatrix& matrix, double shift) {
   cholmod_common& common = package_->common;
   cholmod_sparse a = view(matrix);
   double beta[2] = {shift, 0};
-  on_one_thread(*package_->factor,
-                [&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
+  on_one_thread([&] { cholmod_factorize_p(&a, beta, nullptr, 0, package_->factor, &common); });
   if (common.status == CHOLMOD_OUT_OF_MEMORY)
     throw std::runtime_error("sparse Cholesky: out of memory");
   if (common.status != CHOLMOD_OK || package_->factor->minor < a.nrow) return false;
@@ -121,7 +122,7 @@ Vector SparseCholesky::solve(const Vector& right_hand_side) const {
   b.x = const_cast<double*>(right_hand_side.data());
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
-  on_one_thread(*package_->factor, [&] {
+  on_one_thread([&] {
     cholmod_solve2(CHOLMOD_A, package_->factor, &b, nullptr, &package_->solution, nullptr,
                    &package_->work_y, &package_->work_e, &package_->common);
   });

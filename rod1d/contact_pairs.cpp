@@ -1,6 +1,8 @@
 #include "rod1d/contact_pairs.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace bight::rod1d {
@@ -8,19 +10,29 @@ namespace bight::rod1d {
 namespace {
 
 constexpr int leaf_size = 8;
+/// Turning below which no two points of a stretch of rod can touch, with room for moves until the
+/// next search: the chord is longer than 0.87 of the length [rad].
+constexpr double least_turn = 1;
 
 /// Boxes over runs of segments, halved down to leaves; node k has the children 2k + 1 and 2k + 2.
 class ArcTree {
  public:
   ArcTree(const Vector& x, const std::vector<double>& arc, double reach, double exclusion)
       : x_(x), arc_(arc), reach_(reach), exclusion_(exclusion) {
+    turned_.assign(arc.size(), 0.0);
+    for (size_t i = 1; i + 1 < arc.size(); ++i) {
+      const Vector3 e0 = node(static_cast<int>(i)) - node(static_cast<int>(i) - 1);
+      const Vector3 e1 = node(static_cast<int>(i) + 1) - node(static_cast<int>(i));
+      turned_[i] = turned_[i - 1] + std::atan2(e0.cross(e1).norm(), e0.dot(e1));
+    }
+    turned_.back() = turned_[arc.size() - 2];
     grow(0, 0, static_cast<int>(arc.size()) - 1);
   }
 
   void meet(size_t a, size_t b, std::vector<std::pair<int, int>>& pairs) const {
     const Box &A = boxes_[a], &B = boxes_[b];
     const double apart = std::max((A.low - B.high).maxCoeff(), (B.low - A.high).maxCoeff());
-    if (apart > reach_ || arc_[B.end] - arc_[A.begin] < exclusion_) return;
+    if (apart > reach_ || !may_meet(A.begin, B.end - 1)) return;
     const bool leaf_a = is_leaf(A), leaf_b = is_leaf(B);
     if (leaf_a && leaf_b) {
       for (int i = A.begin; i < A.end; ++i)
@@ -63,8 +75,14 @@ class ArcTree {
     boxes_[k].low = low, boxes_[k].high = high;
   }
 
+  /// Segments i to j are long enough, and turn enough, for i and j to be near each other. A curve
+  /// of length s that turns by less than a has a chord longer than s cos(a/2) (Schur).
+  bool may_meet(int i, int j) const {
+    return arc_[j + 1] - arc_[i] >= exclusion_ && turned_[j] - turned_[i] >= least_turn;
+  }
+
   bool near(int i, int j) const {
-    if (arc_[j + 1] - arc_[i] < exclusion_) return false;
+    if (!may_meet(i, j)) return false;
     const double half_lengths =
         0.5 * ((node(i + 1) - node(i)).norm() + (node(j + 1) - node(j)).norm());
     const double limit = reach_ + half_lengths;
@@ -74,6 +92,7 @@ class ArcTree {
   const Vector& x_;
   const std::vector<double>& arc_;
   double reach_, exclusion_;
+  std::vector<double> turned_;  ///< sum of the angles at the nodes up to each [rad]
   std::vector<Box> boxes_;
 };
 

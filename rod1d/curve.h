@@ -54,10 +54,10 @@ class CurveSegment {
   std::array<double, 3> difference1_{}, difference2_{};
 };
 
-/// Segment i of a rod's centerline.
-inline CurveSegment curve_segment(const Rod& rod, int i) {
+/// Segment i of a centerline whose segments have these undeformed lengths.
+inline CurveSegment curve_segment(const std::vector<double>& lengths, int i) {
   const auto length = [&](int k) {
-    return k < 0 || k >= rod.segments() ? 0.0 : rod.rest_length[k];
+    return k < 0 || k >= static_cast<int>(lengths.size()) ? 0.0 : lengths[k];
   };
   return CurveSegment(length(i - 1), length(i), length(i + 1));
 }

@@ -10,7 +10,7 @@ namespace bight::rod1d {
 namespace {
 
 /// Of the quadrature points of contact [D].
-constexpr double contact_spacing = 0.03;
+constexpr double contact_spacing = 0.02;
 
 }  // namespace
 

@@ -56,12 +56,6 @@ std::vector<double> contact_force(const Rod& rod, const std::vector<ContactPoint
   return force;
 }
 
-double max_penetration(const std::vector<ContactPoint>& points) {
-  double largest = 0;
-  for (const ContactPoint& at : points) largest = std::max(largest, -at.gap);
-  return largest;
-}
-
 namespace {
 
 /// Solid angle over 4 pi that segment 3-4 spans on segment 1-2, with its sign.

@@ -22,9 +22,6 @@ std::vector<double> twist_rate(const Rod& rod, const std::vector<double>& twist_
 /// Size of the contact forces per undeformed length, at the nodes [E D].
 std::vector<double> contact_force(const Rod& rod, const std::vector<ContactPoint>& points);
 
-/// Largest overlap of surfaces in contact [D].
-double max_penetration(const std::vector<ContactPoint>& points);
-
 /// Writhe of the open centerline: Gauss's double integral over all pairs of segments, exactly by
 /// solid angles where they are near (Klenin and Langowski, Biopolymers 54, 307 (2000), method 1a),
 /// at midpoints where they are far.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "mechanics/knot_type.h"
 #include "rod1d/grip.h"
+#include "rod1d/knot_mesh.h"
 #include "rod1d/measure.h"
 #include "rod1d/polyline.h"
 
@@ -19,6 +21,15 @@ constexpr size_t extrapolated = 4, kept = 12;
 constexpr double same_ebar = 1e-9;
 /// Share of the allowed overlap that the contact stiffness aims at.
 constexpr double aimed_share = 0.6;
+/// Points of a start that is to be meshed, per diameter and in all.
+constexpr double start_points = 10;
+constexpr int most_start_points = 20000;
+/// Part of the way that the nodes go in one step towards where they are wished.
+constexpr double mesh_pull = 0.3;
+/// Times that the nodes are chosen anew at the first equilibrium.
+constexpr int first_meshes = 3;
+/// Wished places are found from about this many nodes.
+constexpr int mesh_points = 500;
 
 /// Tension of a loose overhand knot, T = 2 pi^2 B/ebar^2 (Audoly et al. 2007): the scale of forces
 /// before there is a first equilibrium [E D^2].
@@ -52,11 +63,12 @@ struct RodModel::Equations {
 
 RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
     : parameters_(parameters),
+      follows_(parameters.follow_knot && !parameters.twist && parameters.friction == 0),
       rod_(uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio)),
       length_(parameters.length),
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
-  const Polyline line = chord_on_axis(resampled(start, parameters.segments));
+  const Polyline line = chord_on_axis(meshed(start));
   start_ebar_ = length_ - (line.back() - line.front()).norm();
   determinant_ = knot_determinant(line);
   force_scale_ = loose_tension(rod_, start_ebar_);
@@ -65,7 +77,56 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   place_grips(rod_, end_to_end(start_ebar_), x);
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
   choose_pin(x);
-  accepted_.push_back({start_ebar_, x});
+  accepted_.push_back({start_ebar_, rod_.arc_length(), x});
+}
+
+/// The start cut into the rod's segments, whose undeformed lengths it fixes.
+Polyline RodModel::meshed(const Polyline& start) {
+  if (!follows_) return resampled(start, parameters_.segments);
+  const int points = std::min(most_start_points, static_cast<int>(start_points * length_) + 1);
+  const Polyline fine = resampled(start, points);
+  std::vector<double> arc;
+  for (int i = 0; i <= points; ++i) arc.push_back(length_ * i / points);
+  const std::vector<double> nodes =
+      spread_nodes(arc, wished_lengths(arc, fine), parameters_.segments);
+  set_arc(nodes);
+  return points_at(arc, fine, nodes);
+}
+
+/// Gives the rod other undeformed lengths, and makes its effects anew.
+void RodModel::set_arc(const std::vector<double>& arc) {
+  for (int i = 0; i < rod_.segments(); ++i) rod_.rest_length[i] = arc[i + 1] - arc[i];
+  const auto law = effects_.contact ? effects_.contact->law() : ContactLaw{};
+  effects_ = make_effects(rod_, parameters_, source_);
+  if (effects_.contact) effects_.contact->set_law(law);
+}
+
+/// Where the nodes of an accepted state are wished; a held node stays where it is.
+std::vector<double> RodModel::wished_arc(const Accepted& at) const {
+  const int n = rod_.nodes(), stride = std::max(1, n / mesh_points);
+  std::vector<double> arc;
+  Polyline line;
+  for (int i = 0; i < n; i += i + stride < n || i == n - 1 ? stride : n - 1 - i) {
+    arc.push_back(at.arc[i]);
+    line.push_back(at.x.segment<3>(Rod::position(i)));
+  }
+  return spread_nodes(arc, wished_lengths(arc, line), rod_.segments(), pin_.node,
+                      pin_.node < 0 ? 0.0 : at.arc[pin_.node]);
+}
+
+/// Nodes for the next solve: they go on as they went in the last step (which, unlike polynomials of
+/// higher degree, is stable), and a part of the way towards where they are wished.
+std::vector<double> RodModel::next_arc(double ebar) const {
+  const Accepted& now = accepted_.back();
+  if (!follows_ || tension_ == 0 || std::abs(ebar - now.ebar) < same_ebar) return now.arc;
+  const std::vector<double> wished = wished_arc(now);
+  std::vector<double> arc(now.arc.size(), 0.0);
+  for (const auto& [state, weight] : extrapolation(ebar, 2))
+    for (size_t i = 0; i < arc.size(); ++i) arc[i] += weight * state->arc[i];
+  for (size_t i = 0; i < arc.size(); ++i) arc[i] += mesh_pull * (wished[i] - arc[i]);
+  for (size_t i = 0; i + 1 < arc.size(); ++i)
+    if (!(arc[i + 1] - arc[i] > 0.5 * (now.arc[i + 1] - now.arc[i]))) return now.arc;
+  return arc;
 }
 
 RodModel::~RodModel() = default;
@@ -93,6 +154,7 @@ void RodModel::choose_pin(const Vector& x) {
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
   for (int i = 0; i < angles(); ++i) blocks.push_back(rod_.angle(i));
+  seconds_ = seconds();
   equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
 }
 
@@ -127,28 +189,44 @@ Vector RodModel::tangent(double ebar) const {
   return now.x + (ebar - now.ebar) * unknowns.expand(now.x, -cholesky.solve(change));
 }
 
-Vector RodModel::predict(double ebar) const {
+/// Lagrange's polynomial in ebar through the newest states, `most` of them.
+RodModel::Extrapolation RodModel::extrapolation(double ebar, size_t most) const {
   const Accepted& now = accepted_.back();
   // States much closer to each other than to `ebar` would only carry their errors over.
-  std::vector<const Accepted*> through{&now};
-  for (auto it = accepted_.rbegin(); it != accepted_.rend() && through.size() < extrapolated; ++it)
-    if (std::all_of(through.begin(), through.end(), [&](const Accepted* other) {
-          return std::abs(it->ebar - other->ebar) > 0.7 * std::abs(ebar - now.ebar);
+  Extrapolation through{{&now, 1.0}};
+  for (auto it = accepted_.rbegin(); it != accepted_.rend() && through.size() < most; ++it)
+    if (std::all_of(through.begin(), through.end(), [&](const auto& other) {
+          return std::abs(it->ebar - other.first->ebar) > 0.7 * std::abs(ebar - now.ebar);
         }))
-      through.push_back(&*it);
+      through.push_back({&*it, 1.0});
+  for (auto& [state, weight] : through)
+    for (const auto& other : through)
+      if (state != other.first)
+        weight *= (ebar - other.first->ebar) / (state->ebar - other.first->ebar);
+  return through;
+}
 
+/// Extrapolated node by node, places on the rod and in space alike: what moves with the knot moves
+/// little. Then taken at the places where the next nodes are to be.
+Vector RodModel::predict(double ebar) const {
+  const Accepted& now = accepted_.back();
   Vector x = now.x;
   if (tension_ > 0 && std::abs(ebar - now.ebar) > same_ebar) {
+    const Extrapolation through = extrapolation(ebar, extrapolated);
+    std::vector<double> arc(now.arc.size(), 0.0);
     if (through.size() == 1) {
       x = tangent(ebar);
-    } else {  // Lagrange's polynomial in ebar
+      arc = now.arc;
+    } else {
       x.setZero();
-      for (const Accepted* a : through) {
-        double weight = 1;
-        for (const Accepted* b : through)
-          if (a != b) weight *= (ebar - b->ebar) / (a->ebar - b->ebar);
-        x += weight * a->x;
+      for (const auto& [state, weight] : through) {
+        x += weight * state->x;
+        for (size_t i = 0; i < arc.size(); ++i) arc[i] += weight * state->arc[i];
       }
+    }
+    if (follows_) {
+      if (!std::is_sorted(arc.begin(), arc.end())) x = now.x, arc = now.arc;
+      x = coordinates_of(rod_, points_at(arc, nodes_of(rod_, x), next_arc(ebar)), 0);
     }
   }
   place_grips(rod_, end_to_end(ebar), x);
@@ -166,24 +244,44 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
   return newton(equations_->system, guess, options);
 }
 
-NewtonResult RodModel::solve(const Vector& guess, double ebar) {
-  (void)ebar;
+/// Equilibrium on the present nodes, with contact so stiff that strands overlap little.
+NewtonResult RodModel::solve_contact(Vector x) {
   const double aimed = aimed_share * parameters_.penetration;
-  double stiffness = stiffness_;
+  double stiffness = effects_.contact ? effects_.contact->law().stiffness : 0;
   NewtonResult result;
   int iterations = 0, factorisations = 0;
   for (int pass = 0; pass < 12; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
-    result = solve_once(pass == 0 ? guess : result.x);
+    result = solve_once(pass == 0 ? x : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
-    const double overlap = max_penetration(effects_.contact->points(result.x));
+    const double overlap = effects_.contact->touching(result.x).second;
     const bool first = tension_ == 0;
     if (overlap <= parameters_.penetration && (!first || overlap > 0.3 * parameters_.penetration))
       break;
     stiffness *= std::clamp(overlap / aimed, 0.3, 4.0);
   }
   result.iterations = iterations, result.factorisations = factorisations;
+  return result;
+}
+
+NewtonResult RodModel::solve(const Vector& guess, double ebar) {
+  if (follows_) set_arc(next_arc(ebar));
+  if (effects_.contact) effects_.contact->set_law({stiffness_, effects_.contact->law().onset});
+  Vector x = guess;
+  place_grips(rod_, end_to_end(ebar), x);
+  NewtonResult result = solve_contact(std::move(x));
+  // The nodes of the start were chosen for its shape, which the first equilibrium changes a lot.
+  for (int k = 0; follows_ && tension_ == 0 && result.ok() && k < first_meshes; ++k) {
+    const Accepted first{ebar, rod_.arc_length(), result.x};
+    const std::vector<double> arc = wished_arc(first);
+    x = coordinates_of(rod_, points_at(first.arc, nodes_of(rod_, first.x), arc), 0);
+    set_arc(arc);
+    place_grips(rod_, end_to_end(ebar), x);
+    const int iterations = result.iterations, factorisations = result.factorisations;
+    result = solve_contact(std::move(x));
+    result.iterations += iterations, result.factorisations += factorisations;
+  }
   if (result.ok() && knot_determinant(nodes_of(rod_, result.x)) != determinant_) {
     result.status = NewtonStatus::stalled;
     result.reason = "a strand has passed through another";
@@ -193,7 +291,7 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
 
 StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
-  accepted_.push_back({ebar, result.x});
+  accepted_.push_back({ebar, rod_.arc_length(), result.x});
   if (accepted_.size() > kept) accepted_.erase(accepted_.begin());
 
   const GripForces forces = grip_forces(rod_, result.gradient);
@@ -212,9 +310,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   row.residual = result.residual / force_scale_;
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {
-    const std::vector<ContactPoint> points = effects_.contact->points(result.x);
-    row.max_penetration = max_penetration(points);
-    row.contact_pairs = static_cast<int>(points.size());
+    std::tie(row.contact_pairs, row.max_penetration) = effects_.contact->touching(result.x);
     const double aimed = aimed_share * parameters_.penetration;
     // Mostly with the tension, which is smooth along the path: the largest overlap is less so, as
     // it depends on where the samples lie, and the extrapolation would feel it.
@@ -244,6 +340,13 @@ RodState RodModel::state() const {
   state.determinant = knot_determinant(state.nodes);
   state.energy_by_effect = energy_by_effect_;
   return state;
+}
+
+std::map<std::string, double> RodModel::seconds() const {
+  std::map<std::string, double> sum = seconds_;
+  if (equations_)
+    for (const auto& [phase, time] : equations_->system.seconds) sum[phase] += time;
+  return sum;
 }
 
 int RodModel::unknowns() const { return equations_->unknowns.size(); }

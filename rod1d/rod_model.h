@@ -34,21 +34,33 @@ class RodModel final : public PathModel {
   RodState state() const;
 
   int unknowns() const;
+  /// Wall seconds by phase of all solves so far.
+  std::map<std::string, double> seconds() const;
   std::vector<std::string> effect_names() const;
 
  private:
   struct Equations;
   struct Accepted {
     double ebar;
+    std::vector<double> arc;  ///< undeformed arc length of the nodes [D]
     Vector x;
   };
+  /// Accepted states and their weights in the guess for an ebar.
+  using Extrapolation = std::vector<std::pair<const Accepted*, double>>;
+  Extrapolation extrapolation(double ebar, size_t most) const;
+  std::vector<double> next_arc(double ebar) const;
+  Polyline meshed(const Polyline& start);
+  void set_arc(const std::vector<double>& arc);
+  std::vector<double> wished_arc(const Accepted& at) const;
   int angles() const { return parameters_.twist ? rod_.segments() : 0; }
   double end_to_end(double ebar) const { return length_ - ebar; }
   void choose_pin(const Vector& x);
   Vector tangent(double ebar) const;
   NewtonResult solve_once(const Vector& guess);
+  NewtonResult solve_contact(Vector x);
 
   RodParameters parameters_;
+  bool follows_;  ///< nodes follow the knot
   Rod rod_;
   double length_, start_ebar_;
   int determinant_;
@@ -66,6 +78,7 @@ class RodModel final : public PathModel {
   std::vector<Accepted> accepted_;  ///< the newest few, newest last
   double tension_ = 0;              ///< of the newest accepted state
   std::map<std::string, double> energy_by_effect_;
+  std::map<std::string, double> seconds_;  ///< of equations that were replaced
   std::chrono::steady_clock::time_point began_;
 };
 

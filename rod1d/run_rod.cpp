@@ -32,7 +32,7 @@ Polyline start_of(const RodParameters& parameters) {
   if (!parameters.start.empty()) return parameters.start;
   return overhand_start(parameters.length,
                         std::max(parameters.path.waypoints.front(), loosest_overhand),
-                        parameters.segments);
+                        std::max(parameters.segments, static_cast<int>(10 * parameters.length)));
 }
 
 /// From the start's own ebar to the first waypoint.
@@ -83,6 +83,7 @@ RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) 
   };
   result.outcome = follow(parameters.path, model, path_observer);
   result.seconds["path"] = seconds_since(tied);
+  for (const auto& [phase, seconds] : model.seconds()) result.seconds[phase] = seconds;
   return result;
 }
 

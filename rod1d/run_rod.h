@@ -21,6 +21,9 @@ struct RodParameters {
   bool twist = false;   ///< twist angles are unknowns
   double friction = 0;  ///< Coulomb coefficient; 0: no friction effect
   int segments = 340;
+  /// Nodes follow the knot along the rod instead of staying at equal distances on it. Only without
+  /// friction, twist and natural shape, which belong to material points.
+  bool follow_knot = true;
   double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
 };

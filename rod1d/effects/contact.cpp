@@ -15,20 +15,28 @@ constexpr double search_gap = 0.8, search_slack = 0.2;
 constexpr double known_gap = search_gap - 2 * search_slack;
 /// Pairs of points are listed that are this much beyond touching, again when a node has moved by
 /// half of it [D].
-constexpr double list_slack = 0.05;
+constexpr double list_slack = 0.02;
 /// Segments nearer than this are given room in the Hessian's pattern [D].
-constexpr double pattern_gap = 0.08;
+constexpr double pattern_gap = 0.03;
 /// Gap below which no iteration may bring a pair [D].
 constexpr double deepest_gap = -0.15;
 
-/// Positions of the quadrature points of a segment.
-using Points = std::vector<Vector3>;
+/// Positions of the quadrature points of a segment, a row each.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
+/// nodes: the four around the segment.
 void place(const SegmentSamples& samples, const double* nodes, Points& points) {
-  const Eigen::Map<const Eigen::Matrix<double, 3, 4>> x(nodes);
-  points.resize(samples.value.size());
-  for (size_t i = 0; i < points.size(); ++i)
-    points[i] = x * Eigen::Map<const Eigen::Vector4d>(samples.value[i].data());
+  points.noalias() =
+      samples.value.lazyProduct(Eigen::Map<const Eigen::Matrix<double, 3, 4>>(nodes).transpose());
+}
+
+/// Squares of the distances of the rows of q from `first` on to p.
+template <class Squares>
+void squares_to(const Vector3& p, const Points& q, int first, Squares&& out) {
+  const auto n = out.size();
+  out = (q.col(0).segment(first, n).array() - p.x()).square() +
+        (q.col(1).segment(first, n).array() - p.y()).square() +
+        (q.col(2).segment(first, n).array() - p.z()).square();
 }
 
 Eigen::Matrix<double, 24, 1> gather(const Vector& x, const std::array<int, 24>& coordinates) {
@@ -37,15 +45,24 @@ Eigen::Matrix<double, 24, 1> gather(const Vector& x, const std::array<int, 24>& 
   return values;
 }
 
-/// Calls `visit(pair, d, distance)` for the pairs that touch, d from j to i.
+/// Calls `visit(i, j, d, distance)` for the points that touch, d from j to i. x: nodes of a, b.
 template <class Visit>
-void for_touching(std::span<const PointPair> pairs, const Points& p, const Points& q,
-                  const ContactLaw& law, Visit&& visit) {
+void for_touching(std::span<const PointRun> runs, const double* x, const SegmentSamples& a,
+                  const SegmentSamples& b, const ContactLaw& law, Visit&& visit) {
+  thread_local Points p, q;
+  thread_local Eigen::ArrayXd square;
+  place(a, x, p);
+  place(b, x + 12, q);
+  square.resize(std::max<Eigen::Index>(square.size(), b.size()));
   const double reach = 1 + 0.5 * law.onset, limit = reach * reach;
-  for (const PointPair& at : pairs) {
-    const Vector3 d = p[at.i] - q[at.j];
-    const double square = d.squaredNorm();
-    if (square < limit) visit(at, d, std::sqrt(square));
+  for (const PointRun& run : runs) {
+    const int n = run.last - run.first + 1;
+    const Vector3 from = p.row(run.i);
+    squares_to(from, q, run.first, square.head(n));
+    for (int k = 0; k < n; ++k)
+      if (square[k] < limit)
+        visit(run.i, run.first + k, Vector3(from - q.row(run.first + k).transpose()),
+              std::sqrt(square[k]));
   }
 }
 
@@ -70,8 +87,7 @@ struct NodeSums {
   Eigen::Matrix<double, 3, 4> force = Eigen::Matrix<double, 3, 4>::Zero();
   Eigen::Matrix<double, 16, 9> stiffness = Eigen::Matrix<double, 16, 9>::Zero();
 
-  void add(const std::array<double, 4>& weights, const PointSums& sums, Order order) {
-    const Eigen::Map<const Eigen::Vector4d> w(weights.data());
+  void add(const Eigen::Vector4d& w, const PointSums& sums, Order order) {
     force += sums.force * w.transpose();
     if (order < Order::hessian) return;
     const Eigen::Matrix4d ww = w * w.transpose();
@@ -83,15 +99,12 @@ struct NodeSums {
 }  // namespace
 
 void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
-                     const SegmentSamples& b, std::span<const PointPair> pairs,
-                     const ContactLaw& law, Order order, ElementSlot& slot) {
-  thread_local Points p, q;
+                     const SegmentSamples& b, std::span<const PointRun> runs, const ContactLaw& law,
+                     Order order, ElementSlot& slot) {
   thread_local std::vector<PointSums> on_q;
-  place(a, x.data(), p);
-  place(b, x.data() + 12, q);
   const double weight = a.spacing * b.spacing;
   if (order == Order::energy) {
-    for_touching(pairs, p, q, law, [&](const PointPair&, const Vector3&, double distance) {
+    for_touching(runs, x.data(), a, b, law, [&](int, int, const Vector3&, double distance) {
       slot.energy += weight * law.energy(distance - 1);
     });
     return;
@@ -100,8 +113,9 @@ void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples
   // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They
   // are summed by points first, which share their nodes' weights; `across` by the point i on a, by
   // nodes of b (rows) and the entries of a block.
-  on_q.resize(std::max(on_q.size(), q.size()));
-  for (size_t j = 0; j < q.size(); ++j) on_q[j].touches = false;
+  const int n = b.size();
+  if (on_q.size() < static_cast<size_t>(n)) on_q.resize(n);
+  for (int j = 0; j < n; ++j) on_q[j].touches = false;
   NodeSums on_a, on_b;
   PointSums on_p;
   Eigen::Matrix<double, 4, 9> across_p;
@@ -109,15 +123,15 @@ void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples
   int current = -1;
   const auto leave_point = [&] {
     if (current < 0) return;
-    on_a.add(a.value[current], on_p, order);
+    const Eigen::Vector4d w = a.value.row(current);
+    on_a.add(w, on_p, order);
     if (order == Order::hessian)
-      across += Eigen::Map<const Eigen::Vector4d>(a.value[current].data()) *
-                Eigen::Map<const Eigen::Matrix<double, 1, 36>>(across_p.data());
+      across += w * Eigen::Map<const Eigen::Matrix<double, 1, 36>>(across_p.data());
   };
-  for_touching(pairs, p, q, law, [&](const PointPair& at, const Vector3& d, double distance) {
-    if (at.i != current) {
+  for_touching(runs, x.data(), a, b, law, [&](int i, int j, const Vector3& d, double distance) {
+    if (i != current) {
       leave_point();
-      current = at.i;
+      current = i;
       on_p.touches = false;
       across_p.setZero();
     }
@@ -128,15 +142,14 @@ void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples
     const Matrix3 m = (curvature - slope / distance) * n * n.transpose() +
                       (slope / distance) * Matrix3::Identity();
     on_p.add(slope * n, m);
-    on_q[at.j].add(-slope * n, m);
-    across_p +=
-        Eigen::Map<const Eigen::Vector4d>(b.value[at.j].data()) * Eigen::Map<const Block>(m.data());
+    on_q[j].add(-slope * n, m);
+    across_p += b.value.row(j).transpose() * Eigen::Map<const Block>(m.data());
   });
   slot.empty = current < 0;
   if (slot.empty) return;
   leave_point();
-  for (size_t j = 0; j < q.size(); ++j)
-    if (on_q[j].touches) on_b.add(b.value[j], on_q[j], order);
+  for (int j = 0; j < n; ++j)
+    if (on_q[j].touches) on_b.add(b.value.row(j).transpose(), on_q[j], order);
 
   Eigen::Map<Eigen::Matrix<double, 3, 8>> gradient(slot.gradient);
   gradient.leftCols<4>() = on_a.force;
@@ -153,19 +166,28 @@ void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples
       }
 }
 
-Contact::Contact(const Rod& rod, double spacing) : nodes_(rod.nodes()), arc_(rod.arc_length()) {
-  for (int i = 0; i < rod.segments(); ++i) {
-    const CurveSegment curve = curve_segment(rod, i);
-    const int count = static_cast<int>(std::ceil(curve.length() / spacing - 1e-9));
-    SegmentSamples samples;
-    samples.spacing = curve.length() / count;
-    for (int k = 0; k < count; ++k) {
-      const double s = (k + 0.5) * samples.spacing;
-      samples.value.push_back(curve.weights(s).value);
-      samples.arc.push_back(arc_[i] + s);
-    }
-    samples_.push_back(std::move(samples));
+Contact::Contact(const Rod& rod, double spacing)
+    : nodes_(rod.nodes()),
+      rest_length_(rod.rest_length),
+      spacing_(spacing),
+      samples_(rod.segments()),
+      arc_(rod.arc_length()) {}
+
+SegmentSamples::SegmentSamples(const CurveSegment& curve, int count, double begin)
+    : value(count, 4), arc(count), spacing(curve.length() / count) {
+  for (int i = 0; i < count; ++i) {
+    const double s = (i + 0.5) * spacing;
+    value.row(i) = Eigen::Map<const Eigen::RowVector4d>(curve.weights(s).value.data());
+    arc[i] = begin + s;
   }
+}
+
+/// Quadrature points are made where they are needed: most of a long rod is by itself.
+void Contact::make_samples(int k) {
+  if (samples_[k].size() > 0) return;
+  const CurveSegment curve = curve_segment(rest_length_, k);
+  const int count = static_cast<int>(std::ceil(curve.length() / spacing_ - 1e-9));
+  samples_[k] = SegmentSamples(curve, count, arc_[k]);
 }
 
 void Contact::set_law(const ContactLaw& law) {
@@ -191,7 +213,7 @@ double Contact::largest_move(const Vector& dx) const {
 
 void Contact::element(const Vector& x, int i, Order order, ElementSlot& slot) const {
   const SegmentPair& at = listed_[i];
-  contact_element(gather(x, at.coordinates), samples_[at.a], samples_[at.b], pairs_of(at), law_,
+  contact_element(gather(x, at.coordinates), samples_[at.a], samples_[at.b], runs_of(at), law_,
                   order, slot);
 }
 
@@ -211,51 +233,68 @@ void Contact::for_near_segments(const Vector& x, double gap, Visit&& visit) cons
   }
 }
 
-void Contact::list_pairs(const Vector& x) {
+/// The quadrature points of a segment, and a ball that holds them.
+struct Contact::Placed {
+  Points points;
+  Vector3 middle = Vector3::Zero();
+  double radius = -1;  ///< negative: not placed
+};
+
+void Contact::place_segment(const Vector& x, int k, Placed& placed) const {
+  const auto values = gather(x, stencil(k, k));
+  place(samples_[k], values.data(), placed.points);
+  const Points& p = placed.points;
+  placed.middle = 0.5 * (p.row(0) + p.row(p.rows() - 1));
+  placed.radius =
+      std::sqrt((p.rowwise() - placed.middle.transpose()).rowwise().squaredNorm().maxCoeff());
+}
+
+void Contact::list_runs(const Vector& x) {
   listed_at_ = x;
-  listed_.clear(), pairs_.clear();
-  deepest_ = known_gap;
+  listed_.clear(), runs_.clear();
   const double list_gap = 0.5 * law_.onset + list_slack, reach = 1 + list_gap;
-  Points p, q;
+  std::vector<Placed> placed(samples_.size());
+  Eigen::ArrayXd square;
+  double least = reach * reach;
   for_near_segments(x, list_gap, [&](int a, int b) {
-    const SegmentSamples &of_a = samples_[a], &of_b = samples_[b];
-    SegmentPair found{a, b, pairs_.size(), 0, stencil(a, b)};
-    const auto values = gather(x, found.coordinates);
-    place(of_a, values.data(), p), place(of_b, values.data() + 12, q);
-    // So much nearer at most is the next point; and all of b is in a ball about its middle.
-    double longest = 0;
-    for (size_t j = 1; j < q.size(); ++j)
-      longest = std::max(longest, (q[j] - q[j - 1]).squaredNorm());
-    longest = std::sqrt(longest);
-    const double skip = 1 / std::max(longest, 1e-6);
-    const int n = static_cast<int>(q.size());
-    const Vector3 middle = q[n / 2];
-    const double around = reach + longest * (n / 2 + 1);
-    for (int i = 0; i < static_cast<int>(p.size()); ++i)
-      for (int j = (p[i] - middle).squaredNorm() < around * around ? 0 : n; j < n;) {
-        const double distance = (p[i] - q[j]).norm();
-        if (distance < reach) {
-          if (of_b.arc[j] - of_a.arc[i] > exclusion) {
-            pairs_.push_back({i, j});
-            deepest_ = std::min(deepest_, distance - 1);
-          }
-          ++j;
-        } else {
-          j += 1 + static_cast<int>(std::min((distance - reach) * skip, 1e6));
-        }
-      }
-    found.end = pairs_.size();
+    Placed &on_a = placed[a], &on_b = placed[b];
+    if (on_a.radius < 0) place_segment(x, a, on_a);
+    if (on_b.radius < 0) place_segment(x, b, on_b);
+    const auto within = [](const Vector3& d, double limit) {
+      return d.squaredNorm() < limit * limit;
+    };
+    if (!within(on_a.middle - on_b.middle, on_a.radius + on_b.radius + reach)) return;
+    SegmentPair found{a, b, runs_.size(), 0, stencil(a, b)};
+    const Eigen::ArrayXd &arc_a = samples_[a].arc, &arc_b = samples_[b].arc;
+    const int n = static_cast<int>(arc_b.size());
+    square.resize(n);
+    for (int i = 0; i < static_cast<int>(arc_a.size()); ++i) {
+      const Vector3 p = on_a.points.row(i);
+      if (!within(p - on_b.middle, on_b.radius + reach)) continue;
+      squares_to(p, on_b.points, 0, square.head(n));
+      int first = 0, last = n - 1;
+      while (first < n && arc_b[first] - arc_a[i] <= exclusion) ++first;
+      while (first < n && square[first] >= reach * reach) ++first;
+      if (first == n) continue;
+      while (square[last] >= reach * reach) --last;
+      runs_.push_back({i, first, last});
+      least = std::min(least, square.segment(first, last - first + 1).minCoeff());
+    }
+    found.end = runs_.size();
     if (found.end > found.begin) listed_.push_back(found);
   });
+  deepest_ = std::sqrt(least) - 1;
 }
 
 void Contact::refresh(const Vector& x) {
   if (searched_.size() == 0 || largest_move(x - searched_) > search_slack) {
     searched_ = x;
     windows_ = contact_windows(x, arc_, 1 + search_gap, exclusion);
+    for (const ContactWindow& window : windows_)
+      for (int k = window.first; k <= window.last; ++k) make_samples(k);
     listed_at_.resize(0);
   }
-  if (listed_at_.size() == 0 || largest_move(x - listed_at_) > 0.5 * list_slack) list_pairs(x);
+  if (listed_at_.size() == 0 || largest_move(x - listed_at_) > 0.5 * list_slack) list_runs(x);
 }
 
 void Contact::couplings(const std::function<void(std::span<const int>)>& couple) const {
@@ -275,10 +314,11 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
     place(samples_[a], values.data(), p), place(samples_[b], values.data() + 12, q);
     place(samples_[a], change.data(), dp), place(samples_[b], change.data() + 12, dq);
     // Every fourth point or so is enough to see two strands approach.
-    for (size_t i = p.size() / 8; i < p.size(); i += 4)
-      for (size_t j = q.size() / 8; j < q.size(); j += 4) {
-        const Vector3 d = p[i] - q[j];
-        const double distance = d.norm(), approach = -d.dot(dp[i] - dq[j]) / distance;
+    for (auto i = p.rows() / 8; i < p.rows(); i += 4)
+      for (auto j = q.rows() / 8; j < q.rows(); j += 4) {
+        const Vector3 d = p.row(i) - q.row(j);
+        const double distance = d.norm(),
+                     approach = -d.dot(Vector3(dp.row(i) - dq.row(j))) / distance;
         // A pair that is deeper already (a start that overlaps) may still be moved a little.
         const double room = std::max(distance - 1 - deepest_gap, 0.05);
         if (approach * longest > room) longest = room / approach;
@@ -289,22 +329,28 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
 
 std::vector<ContactPoint> Contact::points(const Vector& x) const {
   std::vector<ContactPoint> list;
-  Points p, q;
   for (const SegmentPair& at : listed_) {
     const SegmentSamples &a = samples_[at.a], &b = samples_[at.b];
-    const auto values = gather(x, at.coordinates);
-    place(a, values.data(), p), place(b, values.data() + 12, q);
-    const auto inside = [](const SegmentSamples& s, int i) {
-      return (i + 0.5) / static_cast<double>(s.arc.size());
-    };
-    for_touching(pairs_of(at), p, q, law_,
-                 [&](const PointPair& pair, const Vector3& d, double distance) {
-                   list.push_back({at.a, at.b, inside(a, pair.i), inside(b, pair.j), a.arc[pair.i],
-                                   b.arc[pair.j], d / distance, distance - 1,
+    for_touching(runs_of(at), gather(x, at.coordinates).data(), a, b, law_,
+                 [&](int i, int j, const Vector3& d, double distance) {
+                   list.push_back({at.a, at.b, (i + 0.5) / a.size(), (j + 0.5) / b.size(), a.arc[i],
+                                   b.arc[j], d / distance, distance - 1,
                                    -a.spacing * b.spacing * law_.slope(distance - 1)});
                  });
   }
   return list;
+}
+
+std::pair<int, double> Contact::touching(const Vector& x) const {
+  int count = 0;
+  double smallest = 1;
+  for (const SegmentPair& at : listed_)
+    for_touching(runs_of(at), gather(x, at.coordinates).data(), samples_[at.a], samples_[at.b],
+                 law_, [&](int, int, const Vector3&, double distance) {
+                   ++count;
+                   smallest = std::min(smallest, distance);
+                 });
+  return {count, 1 - smallest};
 }
 
 }  // namespace bight::rod1d

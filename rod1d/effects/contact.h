@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mechanics/contact_law.h"
@@ -12,17 +13,22 @@
 
 namespace bight::rod1d {
 
-/// Quadrature points of one segment: weights of its four nodes in each point, and the undeformed
-/// arc length from the start of the rod to it [D].
+/// Quadrature points of one segment, a row each: weights of its four nodes in the point, and the
+/// undeformed arc length from the start of the rod to it [D].
 struct SegmentSamples {
-  std::vector<std::array<double, 4>> value;
-  std::vector<double> arc;
+  SegmentSamples() = default;
+  /// `count` points in the middles of equal parts of a segment that begins at `arc`.
+  SegmentSamples(const CurveSegment& curve, int count, double begin);
+
+  Eigen::Matrix<double, Eigen::Dynamic, 4> value;
+  Eigen::ArrayXd arc;
   double spacing = 0;  ///< undeformed arc length that each stands for [D]
+  int size() const { return static_cast<int>(value.rows()); }
 };
 
-/// Two quadrature points, by their numbers inside their segments.
-struct PointPair {
-  int i, j;
+/// A quadrature point i of one segment, and those of another from `first` to `last`.
+struct PointRun {
+  int i, first, last;
 };
 
 /// Contact between two segments of the round tube, as a double integral over their centerlines:
@@ -33,10 +39,10 @@ struct PointPair {
 /// one strand winds around the other with curvature 1/D (every point of the bend is nearest then,
 /// as in a tight knot), this is as smooth as the law, and needs no projection. The law is of short
 /// range, so that along a line of contact only points within sqrt(2 onset) of each other count.
-/// `pairs`, in the order of i: holds all that touch. x: four nodes of either segment.
+/// `runs` hold all that touch. x: four nodes of either segment.
 void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
-                     const SegmentSamples& b, std::span<const PointPair> pairs,
-                     const ContactLaw& law, Order order, ElementSlot& slot);
+                     const SegmentSamples& b, std::span<const PointRun> runs, const ContactLaw& law,
+                     Order order, ElementSlot& slot);
 
 /// Two points of the rod that press on each other: on a acts +force * normal, on b the opposite.
 struct ContactPoint {
@@ -68,34 +74,41 @@ class Contact final : public Effect {
 
   /// Everything that touches at x, which was refreshed last.
   std::vector<ContactPoint> points(const Vector& x) const;
+  /// How many pairs of points that is, and the largest overlap [D].
+  std::pair<int, double> touching(const Vector& x) const;
 
  private:
   using Stencil = std::array<int, 24>;
-  /// Two segments and their pairs of quadrature points that are nearer than `list_gap`.
+  /// Two segments and the quadrature points that are nearer than touching and a slack.
   struct SegmentPair {
     int a, b;
-    size_t begin, end;  ///< in pairs_
+    size_t begin, end;  ///< in runs_
     Stencil coordinates;
   };
-  std::span<const PointPair> pairs_of(const SegmentPair& at) const {
-    return {pairs_.data() + at.begin, at.end - at.begin};
+  std::span<const PointRun> runs_of(const SegmentPair& at) const {
+    return {runs_.data() + at.begin, at.end - at.begin};
   }
   Stencil stencil(int a, int b) const;
   /// Calls `visit(a, b)` for the segments of windows_ that may be nearer at x than `gap`.
   template <class Visit>
   void for_near_segments(const Vector& x, double gap, Visit&& visit) const;
-  void list_pairs(const Vector& x);
+  struct Placed;
+  void place_segment(const Vector& x, int k, Placed& placed) const;
+  void list_runs(const Vector& x);
+  void make_samples(int k);
   double largest_move(const Vector& dx) const;
 
   int nodes_;
-  std::vector<SegmentSamples> samples_;  ///< by segment
+  std::vector<double> rest_length_;
+  double spacing_;
+  std::vector<SegmentSamples> samples_;  ///< by segment; empty where nothing is near
   std::vector<double> arc_;              ///< undeformed arc length of the nodes
   ContactLaw law_;
   Vector searched_;  ///< state for which windows_ were found
   std::vector<ContactWindow> windows_;
-  Vector listed_at_;  ///< state for which pairs_ were listed
+  Vector listed_at_;  ///< state for which runs_ were listed
   std::vector<SegmentPair> listed_;
-  std::vector<PointPair> pairs_;
+  std::vector<PointRun> runs_;
   double deepest_ = 0;  ///< smallest gap of a listed pair at listed_at_
 };
 

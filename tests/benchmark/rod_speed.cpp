@@ -84,6 +84,14 @@ void run(const Case& c) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  if (count > 6 && std::string(arguments[1]) == "try") {
+    const auto number = [&](int i) { return std::atof(arguments[i]); };
+    Case c{"try", "",
+           rod(number(2), static_cast<int>(number(3)), number(4), number(5), number(6), 0)};
+    c.parameters.follow_knot = count < 8;
+    run(c);
+    return 0;
+  }
   for (const Case& c : all_cases()) {
     bool asked = count == 1;
     for (int i = 1; i < count; ++i) asked = asked || c.name == arguments[i];
