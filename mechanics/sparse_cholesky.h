@@ -22,7 +22,9 @@ struct SymmetricMatrix {
 /// Dissection: METIS on the pattern (a solid).
 enum class Ordering { natural, minimum_degree, dissection };
 
-/// Sparse Cholesky factorisation of a symmetric positive definite matrix: CHOLMOD's door.
+/// Sparse Cholesky factorisation of a symmetric positive definite matrix: CHOLMOD's door. Small or
+/// narrow matrices are CHOLMOD's from end to end; for supernodal ones it orders and analyses, and
+/// Multifrontal does the numbers.
 class SparseCholesky {
  public:
   SparseCholesky();

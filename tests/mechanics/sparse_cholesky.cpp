@@ -1,5 +1,7 @@
 #include "mechanics/sparse_cholesky.h"
 
+#include <omp.h>
+
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <random>
@@ -65,4 +67,78 @@ TEST_CASE("a matrix with a NaN is not positive definite") {
   SparseCholesky cholesky;
   cholesky.analyse(lower(banded(50, 0.1)), Ordering::natural);
   CHECK_FALSE(cholesky.factor(lower(dense)));
+}
+
+namespace {
+
+/// Laplacian on a cubic grid of n^3 points with three coupled unknowns each, plus `floor`: large
+/// enough for supernodes, with fronts of several tiles.
+SymmetricMatrix grid(int n, double floor) {
+  const auto point = [n](int i, int j, int k) { return (i * n + j) * n + k; };
+  SymmetricMatrix m;
+  m.column_start = {0};
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k)
+        for (int c = 0; c < 3; ++c) {
+          const auto put = [&](int other, double diagonal, double coupled) {
+            for (int d = 0; d < 3; ++d) {
+              m.row.push_back(3 * other + d);
+              m.value.push_back(d == c ? diagonal : coupled);
+            }
+          };
+          put(point(i, j, k), 6 + floor + 0.2, 0.1);
+          if (k + 1 < n) put(point(i, j, k + 1), -1, 0);
+          if (j + 1 < n) put(point(i, j + 1, k), -1, 0);
+          if (i + 1 < n) put(point(i + 1, j, k), -1, 0);
+          m.column_start.push_back(static_cast<int>(m.row.size()));
+        }
+  return m;
+}
+
+Vector product(const SymmetricMatrix& m, const Vector& x) {
+  Vector y = Vector::Zero(x.size());
+  for (int j = 0; j < m.size(); ++j)
+    for (int at = m.column_start[j]; at < m.column_start[j + 1]; ++at) {
+      const int i = m.row[at];
+      if (i < j) continue;  // above the diagonal: ignored
+      y[i] += m.value[at] * x[j];
+      if (i > j) y[j] += m.value[at] * x[i];
+    }
+  return y;
+}
+
+}  // namespace
+
+TEST_CASE("a large matrix is solved to round-off, the same on one thread and on two") {
+  const SymmetricMatrix m = grid(14, 0);
+  Vector b(m.size());
+  for (int i = 0; i < b.size(); ++i) b[i] = std::sin(1.0 + i);
+  Vector x[2];
+  for (const int k : {0, 1}) {
+    omp_set_num_threads(k + 1);
+    SparseCholesky cholesky;
+    cholesky.analyse(m, Ordering::dissection);
+    REQUIRE(cholesky.factor(m, 1.0));
+    REQUIRE(cholesky.factor(m));
+    x[k] = cholesky.solve(b);
+    CHECK((product(m, x[k]) - b).norm() < 1e-12 * b.norm());
+  }
+  omp_set_num_threads(omp_get_num_procs());
+  CHECK((x[0] - x[1]).norm() == 0);
+}
+
+TEST_CASE("a large matrix that is not positive definite is an answer, too") {
+  // The least eigenvalue of the grid: 6 - 6 cos(pi/(n + 1)) + 0.1 for the couplings.
+  const double least = 6 - 6 * std::cos(M_PI / 15) + 0.1;
+  const SymmetricMatrix m = grid(14, -least - 1e-3);
+  SparseCholesky cholesky;
+  cholesky.analyse(m, Ordering::dissection);
+  CHECK_FALSE(cholesky.factor(m));
+  CHECK_FALSE(cholesky.factor(m, 0.9e-3));
+  REQUIRE(cholesky.factor(m, 1.1e-3));
+  CHECK_FALSE(cholesky.factor(m));
+  SymmetricMatrix broken = grid(14, 0);
+  broken.value[broken.column_start[3000]] = std::nan("");  // on the diagonal
+  CHECK_FALSE(cholesky.factor(broken));
 }
