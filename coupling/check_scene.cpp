@@ -96,6 +96,12 @@ class Check {
       refuse("ends.turn", "the solid does not simulate it yet: only for fidelities = [\"rod\"]");
   }
 
+  void friction() {
+    if (scene_.friction > 0 && !scene_.twist)
+      refuse("effects.twist", "friction needs the rod's twist");
+    if (scene_.friction > 0 && !scene_.contact) refuse("effects.contact", "friction needs contact");
+  }
+
   void effects() {
     if (scene_.follow_knot && (scene_.friction > 0 || scene_.twist))
       refuse("rod1d.follow_knot",
@@ -104,7 +110,8 @@ class Check {
     for (const AskedEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {
         refused = true;
-        refuse(effect.key, effect.name + " cannot be simulated yet; available: " + available());
+        refuse(effect.key,
+               effect.name + " cannot be simulated with the solid yet; available: " + available());
       }
   }
 
@@ -142,6 +149,7 @@ void check_scene(Scene& scene, const Values& values, Problems& problems) {
   check.material();
   check.resolution();
   check.ends();
+  check.friction();
   check.effects();
 }
 

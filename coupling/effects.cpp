@@ -9,7 +9,8 @@ std::vector<AskedEffect> asked_effects(const Scene& scene) {
       {"strain", "", false, true},
   };
   if (scene.contact) effects.push_back({"contact", "effects.contact"});
-  if (scene.friction > 0) effects.push_back({"friction", "effects.friction", true, true, false});
+  if (scene.friction > 0)
+    effects.push_back({"friction", "effects.friction", true, true, !scene.solid});
   if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
   return effects;
 }

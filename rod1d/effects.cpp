@@ -26,6 +26,8 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const F
   if (!rod.straight()) add(std::make_unique<NaturalBend>(rod, source));
   if (parameters.twist) add(std::make_unique<Twist>(rod, source));
   if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
+  if (parameters.friction > 0)
+    effects.friction = add(std::make_unique<Friction>(rod, *effects.contact, parameters.friction));
   return effects;
 }
 

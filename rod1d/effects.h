@@ -2,6 +2,7 @@
 
 #include "mechanics/assemble.h"
 #include "rod1d/effects/contact.h"
+#include "rod1d/effects/friction.h"
 #include "rod1d/frames.h"
 #include "rod1d/rod.h"
 #include "rod1d/run_rod.h"
@@ -12,6 +13,7 @@ namespace bight::rod1d {
 struct RodEffects {
   EffectList list;
   Contact* contact = nullptr;
+  Friction* friction = nullptr;
 };
 
 /// THE list: what the parameters ask for, nothing else. `source`: frames that twist is counted

@@ -28,6 +28,7 @@ struct Jet {
     a.value *= b, a.gradient *= b, a.hessian *= b;
     return a;
   }
+  friend Jet operator*(double a, const Jet& b) { return b * a; }
   friend Jet operator*(const Jet& a, const Jet& b) {
     Jet c(a.value * b.value);
     c.gradient = a.value * b.gradient + b.value * a.gradient;

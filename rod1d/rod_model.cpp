@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "mechanics/knot_type.h"
 #include "rod1d/grip.h"
@@ -30,6 +31,10 @@ constexpr double mesh_pull = 0.3;
 constexpr int first_meshes = 3;
 /// Wished places are found from about this many nodes.
 constexpr int mesh_points = 500;
+/// Solves of one step with contact stiffness and friction taken anew, at most.
+constexpr int max_passes = 12;
+/// Share of the tension that further solves may still change when friction has settled.
+constexpr double settled_change = 5e-4;
 
 /// Tension of a loose overhand knot, T = 2 pi^2 B/ebar^2 (Audoly et al. 2007): the scale of forces
 /// before there is a first equilibrium [E D^2].
@@ -76,7 +81,9 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   Vector x = coordinates_of(rod_, line, angles());
   place_grips(rod_, end_to_end(start_ebar_), x);
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
+  history_ = {x, source_, {}};
   choose_pin(x);
+  set_equations();
   accepted_.push_back({start_ebar_, rod_.arc_length(), x});
 }
 
@@ -137,19 +144,32 @@ RodModel::~RodModel() = default;
 /// axis, is held across its radius against the first and, if the rod is knotted, along the axis
 /// against the second. A turn does no work, so that reaction is zero; the other one is what the
 /// ends' tensions differ by: zero for a knot that is symmetric about its middle node.
-void RodModel::choose_pin(const Vector& x) {
+///
+/// Friction holds the knot by itself: then no node is pinned.
+bool RodModel::choose_pin(const Vector& x) {
+  const Pin before = pin_;
+  if (effects_.friction && tension_ > 0) {
+    pin_ = {};
+    return before.node >= 0;
+  }
   const auto across = [&](int node) { return x.segment<2>(Rod::position(node)).cwiseAbs(); };
   if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
       across(pin_.node).norm() > 0.5)
-    return;
-  std::vector<bool> held = held_coordinates(rod_, parameters_.twist, finish_turns_);
+    return false;
   int farthest = 0;
   for (int i = 0; i < rod_.nodes(); ++i)
     if (across(i).norm() > across(farthest).norm() + 1e-9) farthest = i;
-  if (across(farthest).norm() > 0) {
+  pin_ = {};
+  if (across(farthest).norm() > 0)
     pin_ = {farthest, across(farthest).x() > across(farthest).y() ? 1 : 0};
-    held[Rod::position(farthest) + pin_.axis] = true;
-    held[Rod::position(farthest) + 2] = determinant_ != 1;
+  return true;
+}
+
+void RodModel::set_equations() {
+  std::vector<bool> held = held_coordinates(rod_, parameters_.twist, finish_turns_);
+  if (pin_.node >= 0) {
+    held[Rod::position(pin_.node) + pin_.axis] = true;
+    held[Rod::position(pin_.node) + 2] = determinant_ != 1;
   }
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
@@ -162,8 +182,7 @@ void RodModel::set_tied() {
   if (!parameters_.twist) return;
   tied_angle_ = finish_angle_ = accepted_.back().x[rod_.angle(rod_.segments() - 1)];
   finish_turns_ = parameters_.finish_turns;
-  pin_.node = -1;
-  choose_pin(accepted_.back().x);
+  set_equations();
 }
 
 /// dx/debar of the newest state: H dx = -dg/dgrips, with the grips' effect on the gradient g taken
@@ -244,28 +263,61 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
   return newton(equations_->system, guess, options);
 }
 
-/// Equilibrium on the present nodes, with contact so stiff that strands overlap little.
+/// Freezes the spots that rub at x for the next solve, and counts twist from there.
+void RodModel::freeze(const Vector& x) {
+  source_ = carried_frames(rod_, source_, x);
+  effects_.contact->refresh(x);
+  effects_.friction->set_spots(
+      friction_spots(rod_, rubbing_points(effects_.contact->points(x)), x, source_, history_));
+}
+
+/// Equilibrium on the present nodes, with contact so stiff that strands overlap little. Without
+/// friction that is one minimisation, as a rule. Friction freezes the spots that rub (first those
+/// of the last accepted state) and is solved again with those of the solution until the tension has
+/// settled.
 NewtonResult RodModel::solve_contact(Vector x) {
   const double aimed = aimed_share * parameters_.penetration;
   double stiffness = effects_.contact ? effects_.contact->law().stiffness : 0;
   NewtonResult result;
   int iterations = 0, factorisations = 0;
-  for (int pass = 0; pass < 12; ++pass) {
+  const bool rubs = effects_.friction && tension_ > 0;
+  double tension = 0, change = 0;
+  for (int pass = 0; pass < max_passes; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
+    if (rubs) freeze(pass == 0 ? history_.x : result.x);
     result = solve_once(pass == 0 ? x : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
+    const double last_change =
+        std::abs(std::exchange(change, grip_forces(rod_, result.gradient).tension() - tension));
+    tension += change;
+    // The changes fall like a geometric series: what is left is its rest.
+    const double left =
+        pass < 2 ? std::abs(change)
+                 : change * change / std::max(last_change - std::abs(change), 1e-3 * last_change);
+    const bool settled = !rubs || (pass > 0 && left <= settled_change * force_scale_);
     const double overlap = effects_.contact->touching(result.x).second;
     const bool first = tension_ == 0;
-    if (overlap <= parameters_.penetration && (!first || overlap > 0.3 * parameters_.penetration))
+    if (settled && overlap <= parameters_.penetration &&
+        (!first || overlap > 0.3 * parameters_.penetration))
       break;
-    stiffness *= std::clamp(overlap / aimed, 0.3, 4.0);
+    if (pass + 1 == max_passes && !settled) {
+      result.status = NewtonStatus::too_many_iterations;
+      result.reason = "friction does not settle";
+    }
+    if (overlap > parameters_.penetration || first)
+      stiffness *= std::clamp(overlap / aimed, 0.3, 4.0);
+  }
+  if (result.ok() && rubs && tension < 0) {
+    result.status = NewtonStatus::stalled;
+    result.reason = "friction keeps the knot shut: the ends would have to push";
   }
   result.iterations = iterations, result.factorisations = factorisations;
   return result;
 }
 
 NewtonResult RodModel::solve(const Vector& guess, double ebar) {
+  source_ = history_.frames;
   if (follows_) set_arc(next_arc(ebar));
   if (effects_.contact) effects_.contact->set_law({stiffness_, effects_.contact->law().onset});
   Vector x = guess;
@@ -301,12 +353,25 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   energy_by_effect_ = equations_->assembler.energy_by_effect();
 
   StepRow row;
+  row.energy = result.energy;
   if (parameters_.twist) {
     source_ = carried_frames(rod_, source_, result.x);
+    history_ = {result.x, source_, {}};
     row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied_angle_;
   }
+  if (effects_.friction) {
+    const Friction& friction = *effects_.friction;
+    // The normal forces of the spots are those at the end of the step: the mean counts.
+    const double normal_force = friction.normal_force();
+    if (normal_force > 0)
+      dissipated_ += 0.5 * (1 + normal_force_ / normal_force) * friction.dissipated(result.x);
+    normal_force_ = normal_force;
+    row.energy += friction.stored(result.x) - energy_by_effect_["friction"];
+    energy_by_effect_["friction"] = friction.stored(result.x);
+    history_.memory = friction.memory(result.x);
+    row.dissipated = dissipated_;
+  }
   row.tension = tension_;
-  row.energy = result.energy;
   row.residual = result.residual / force_scale_;
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {
@@ -317,7 +382,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     stiffness_ = effects_.contact->law().stiffness * tightening *
                  std::pow(std::clamp(row.max_penetration / aimed, 0.25, 4.0), 0.3);
   }
-  choose_pin(result.x);
+  if (choose_pin(result.x)) set_equations();
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   return row;
 }

@@ -54,8 +54,10 @@ class RodModel final : public PathModel {
   std::vector<double> wished_arc(const Accepted& at) const;
   int angles() const { return parameters_.twist ? rod_.segments() : 0; }
   double end_to_end(double ebar) const { return length_ - ebar; }
-  void choose_pin(const Vector& x);
+  bool choose_pin(const Vector& x);
+  void set_equations();
   Vector tangent(double ebar) const;
+  void freeze(const Vector& x);
   NewtonResult solve_once(const Vector& guess);
   NewtonResult solve_contact(Vector x);
 
@@ -64,7 +66,8 @@ class RodModel final : public PathModel {
   Rod rod_;
   double length_, start_ebar_;
   int determinant_;
-  Frames source_;  ///< frames of the newest accepted state; empty without twist
+  Frames source_;            ///< frames that twist is counted from; empty without twist
+  FrictionHistory history_;  ///< the newest accepted state; empty without twist
   bool finish_turns_ = true;
   double tied_angle_ = 0, finish_angle_ = 0;  ///< of the last segment: when tied, when held [rad]
   RodEffects effects_;
@@ -77,6 +80,8 @@ class RodModel final : public PathModel {
   double force_scale_;              ///< tension expected [E D^2]
   std::vector<Accepted> accepted_;  ///< the newest few, newest last
   double tension_ = 0;              ///< of the newest accepted state
+  double normal_force_ = 0;         ///< summed over the spots that rub there [E D^2]
+  double dissipated_ = 0;           ///< by friction so far [E D^3]
   std::map<std::string, double> energy_by_effect_;
   std::map<std::string, double> seconds_;  ///< of equations that were replaced
   std::chrono::steady_clock::time_point began_;

@@ -18,8 +18,9 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
 }
 
 void check(const RodParameters& parameters) {
-  if (parameters.friction != 0)
-    throw std::invalid_argument("the rod does not simulate friction yet: leave friction out");
+  if (parameters.friction < 0) throw std::invalid_argument("the friction coefficient is negative");
+  if (parameters.friction > 0 && !(parameters.twist && parameters.contact))
+    throw std::invalid_argument("friction needs the effects contact and twist");
   if (!parameters.finish_turns && !parameters.twist)
     throw std::invalid_argument("a finish end that may not turn needs the effect twist");
   if (parameters.finish_turns && parameters.finish_turn != 0)
@@ -35,10 +36,24 @@ Polyline start_of(const RodParameters& parameters) {
                         std::max(parameters.segments, static_cast<int>(10 * parameters.length)));
 }
 
+/// Slack that is pulled through a knot with friction before the path begins, so that friction acts
+/// everywhere against the path's direction from its first state on [D].
+constexpr double mobilising = 2;
+
+/// Where the path is entered from: the first waypoint, or with friction from a little before it.
+std::vector<double> approach(const RodParameters& parameters) {
+  const std::vector<double>& waypoints = parameters.path.waypoints;
+  const double first = waypoints.front();
+  if (parameters.friction == 0) return {first};
+  const bool loosens = waypoints.size() > 1 && waypoints[1] > first;
+  return {loosens ? first - mobilising : first + mobilising, first};
+}
+
 /// From the start's own ebar to the first waypoint.
 PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObserver& observer) {
   Path path = parameters.path;
-  path.waypoints = {model.start_ebar(), parameters.path.waypoints.front()};
+  path.waypoints = approach(parameters);
+  path.waypoints.insert(path.waypoints.begin(), model.start_ebar());
   path.record.clear();
   PathObserver silent;
   silent.interrupted = observer.interrupted;

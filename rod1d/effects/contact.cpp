@@ -298,7 +298,11 @@ void Contact::refresh(const Vector& x) {
 }
 
 void Contact::couplings(const std::function<void(std::span<const int>)>& couple) const {
-  for_near_segments(listed_at_, pattern_gap, [&](int a, int b) { couple(stencil(a, b)); });
+  for_pattern_segments([&](int a, int b) { couple(stencil(a, b)); });
+}
+
+void Contact::for_pattern_segments(const std::function<void(int, int)>& visit) const {
+  for_near_segments(listed_at_, pattern_gap, visit);
 }
 
 double Contact::longest_step(const Vector& x, const Vector& dx) const {

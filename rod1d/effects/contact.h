@@ -68,6 +68,9 @@ class Contact final : public Effect {
   void couplings(const std::function<void(std::span<const int>)>& couple) const override;
   double longest_step(const Vector& x, const Vector& dx) const override;
 
+  /// Calls `visit(a, b)` for the pairs of segments that are given room in the Hessian's pattern.
+  void for_pattern_segments(const std::function<void(int, int)>& visit) const;
+
   const ContactLaw& law() const { return law_; }
   /// To be changed between solves only: it is part of the energy.
   void set_law(const ContactLaw& law);

@@ -95,7 +95,7 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene + "[solid3d]\nseed_ebar = 5\n", {":9", "solid3d.seed_ebar", "20 to 30"}},
       {small_scene_with("350 mm", "80 mm"), {"rod.length", "too short"}},
       {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
-      {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "yet", "contact"}},
+      {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "solid", "contact"}},
       {small_scene + "[ends]\nturn = \"90 degree\"\n", {":9", "ends.turn", "clamped"}},
       {small_scene + "[effects]\ngravity = true\n", {":9", "effects.gravity", "no such effect"}},
       {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},

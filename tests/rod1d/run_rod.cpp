@@ -183,8 +183,11 @@ TEST_CASE("turning the clamped finish of a knot takes the torque that its twist 
 TEST_CASE("what the rod cannot do is refused in words") {
   RodParameters parameters = tight_overhand(170, {30, 20});
   parameters.friction = 0.3;
-  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("friction"));
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("twist"));
   parameters.friction = 0;
+  parameters.finish_turns = false;
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("twist"));
+  parameters.finish_turns = true;
   parameters.length = 20;
   CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("20 D"));
   parameters.length = 42.17;

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rod1d/effects/contact.h"
+#include "rod1d/frames.h"
+
+namespace bight::rod1d {
+
+/// Segments whose nodes and angles a stencil of friction holds, on either side of the contact.
+constexpr int friction_coordinates = 30;
+std::array<int, friction_coordinates> friction_stencil(const Rod& rod, int a, int b);
+
+/// Where a quadrature point of strand a is pressed, and by how much: contact points, summed.
+struct RubbingPoint {
+  int a = 0;
+  double u_a = 0;    ///< place inside the segment, 0 to 1
+  double arc_b = 0;  ///< undeformed arc length of the mean place on strand b [D]
+  double force = 0;  ///< normal force N [E D^2]
+};
+
+std::vector<RubbingPoint> rubbing_points(const std::vector<ContactPoint>& points);
+
+/// What slip depends on at one spot: p - q of the centerlines, dy/ds of both strands, and the
+/// angles of both sections.
+constexpr int slip_variables = 11;
+
+/// A place where two strands rub, frozen during a solve. The points that touch stick to their
+/// sections a and b, with the material frames F: on the surface of a at p + F_a r_a, of b at
+/// q + F_b r_b. The slip is the distance between them as section a sees it,
+///
+///   slip_c = axis_c . F_a' (p + F_a r_a - q - F_b r_b)   [D]
+///
+/// in its tangent plane: rolling of both strands is no slip, nor is a motion that they share. It is
+/// expanded to second order in z about the state at which it was frozen: directions of friction
+/// that do not turn with the strands would have a false stiffness against rolling, larger than the
+/// true one.
+struct FrictionSpot {
+  RubbingPoint at;
+  int b = 0;                                                        ///< segment of strand b
+  Eigen::Matrix<double, slip_variables, friction_coordinates> map;  ///< z = map x
+  Eigen::Matrix<double, slip_variables, 1> z;                       ///< where it was frozen
+  Vector2 slip;  ///< there, from the last accepted state on, with the elastic slip then
+  Eigen::Matrix<double, slip_variables, 2> gradient;  ///< of both components
+  std::array<Eigen::Matrix<double, slip_variables, slip_variables>, 2> hessian;
+};
+
+/// The last accepted state, and the elastic slip with which its spots stick.
+struct FrictionHistory {
+  Vector x;
+  Frames frames;  ///< at x
+  struct Memory {
+    int a;
+    double u_a, arc_b;
+    Vector2 elastic_slip;  ///< [D]
+  };
+  std::vector<Memory> memory;
+};
+
+/// The spots of these points at x, whose frames are `frames`. The slip since the last
+/// accepted state is that between the two points of the surfaces which touch at x: the distance
+/// that they had then, turned along with the strands. Finite turns that both strands share are no
+/// slip. A spot that was there before starts with its elastic slip.
+std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<RubbingPoint>& points,
+                                         const Vector& x, const Frames& frames,
+                                         const FrictionHistory& history);
+
+}  // namespace bight::rod1d
