@@ -10,7 +10,7 @@ namespace {
 /// A cell with a smaller det F at a Gauss point counts as inverted.
 constexpr double least_det = 0.02;
 
-using Matrix9x24 = Eigen::Matrix<double, 9, 24>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 using Vector24 = Eigen::Matrix<double, 24, 1>;
 
@@ -22,6 +22,37 @@ Matrix3 cofactor(const Matrix3& F) {
   C.col(2) = F.col(0).cross(F.col(1));
   return C;
 }
+
+/// Stiffness of a cell, H(3a + i, 3b + j) = sum_KL dN_a(K) A(iK, jL) dN_b(L), by pairs of
+/// directions i <= j: a vector over the nodes b for every node a.
+class Stiffness {
+ public:
+  void add(const Matrix9& A, const HexReference::Gradients& dN) {
+    const Nodes N = dN.transpose();
+    int pair = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j, ++pair)
+        for (int K = 0; K < 3; ++K) {
+          const Eigen::Matrix<double, 8, 1> over_b = A(i + 3 * K, j) * N.col(0) +
+                                                     A(i + 3 * K, j + 3) * N.col(1) +
+                                                     A(i + 3 * K, j + 6) * N.col(2);
+          for (int a = 0; a < 8; ++a) block_[pair].col(a) += N(a, K) * over_b;
+        }
+  }
+  void put(Matrix24& H) const {
+    int pair = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j, ++pair)
+        for (int a = 0; a < 8; ++a)
+          for (int b = 0; b < 8; ++b)
+            H(3 * a + i, 3 * b + j) = H(3 * b + j, 3 * a + i) = block_[pair](b, a);
+  }
+
+ private:
+  using Nodes = Eigen::Matrix<double, 8, 3>;
+  std::array<Matrix8, 6> block_{Matrix8::Zero(), Matrix8::Zero(), Matrix8::Zero(),
+                                Matrix8::Zero(), Matrix8::Zero(), Matrix8::Zero()};
+};
 
 }  // namespace
 
@@ -69,7 +100,7 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
 
   double energy = 0, v = 0;
   HexNodes g = HexNodes::Zero(), b = HexNodes::Zero();
-  Matrix24 H = Matrix24::Zero();
+  Stiffness stiffness;
   for (int q = 0; q < HexReference::points; ++q) {
     const auto& dN = ref.gradient[q];
     const double w = ref.weight[q];
@@ -92,13 +123,8 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
     const Eigen::Map<const Eigen::Matrix<double, 9, 1>> vec_G(G.data());
     A.noalias() += p * J * (vec_G * vec_G.transpose());
     NeoHookean::add_transposed_product(-p * J, G, A);
-    // dF = sum_a dx_a dN_a^T: column 3a+i of dF/dx holds dN_a(K) at row i + 3K.
-    Matrix9x24 D = Matrix9x24::Zero();
-    for (int a = 0; a < 8; ++a)
-      for (int K = 0; K < 3; ++K)
-        for (int i = 0; i < 3; ++i) D(i + 3 * K, 3 * a + i) = dN(K, a);
-    const Matrix9x24 AD = w * A * D;
-    H.noalias() += D.transpose() * AD;
+    A *= w;
+    stiffness.add(A, dN);
   }
 
   // Cells far from their dilatation (v != V theta) are on their way to it; the quadratic term
@@ -114,8 +140,10 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
   Vector24::Map(slot.gradient) = Vector24::Map(g.data());
   if (order < Order::hessian) return;
   const Eigen::Map<const Vector24> vec_b(b.data());
-  H.noalias() += bulk_modulus_ / ref.volume * (vec_b * vec_b.transpose());
-  Matrix24::Map(slot.hessian) = H;
+  Eigen::Map<Matrix24> H(slot.hessian);
+  Matrix24 own;
+  stiffness.put(own);
+  H = own + bulk_modulus_ / ref.volume * (vec_b * vec_b.transpose());
 }
 
 void Strain::recover(const Vector& x, Vector& dx) const {

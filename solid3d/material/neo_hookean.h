@@ -18,13 +18,19 @@ struct NeoHookean {
   /// mu_s that gives Young's modulus 1 = 9 K mu_s / (3 K + mu_s) at a ratio k = K / mu_s.
   static NeoHookean with_bulk_ratio(double k) { return {(3 * k + 1) / (9 * k)}; }
 
+  /// J^(-2/3): a cube root is half the price of a power.
+  static double isochoric(double J) {
+    const double root = std::cbrt(J);
+    return 1 / (root * root);
+  }
+
   double energy(const Matrix3& F, double J) const {
-    return 0.5 * shear_modulus * (std::pow(J, -2.0 / 3) * F.squaredNorm() - 3);
+    return 0.5 * shear_modulus * (isochoric(J) * F.squaredNorm() - 3);
   }
 
   /// First Piola stress P = mu J^(-2/3) (F - I1/3 F^-T).
   Matrix3 stress(const Matrix3& F, const Matrix3& F_inverse_T, double J) const {
-    const double c = shear_modulus * std::pow(J, -2.0 / 3);
+    const double c = shear_modulus * isochoric(J);
     return c * (F - F.squaredNorm() / 3 * F_inverse_T);
   }
 
@@ -33,7 +39,7 @@ struct NeoHookean {
   ///                   + I1/3 F^-T dF^T F^-T).
   Matrix9 tangent(const Matrix3& F, const Matrix3& F_inverse_T, double J) const {
     using Vector9 = Eigen::Matrix<double, 9, 1>;
-    const double c = shear_modulus * std::pow(J, -2.0 / 3), I1 = F.squaredNorm();
+    const double c = shear_modulus * isochoric(J), I1 = F.squaredNorm();
     const Eigen::Map<const Vector9> f(F.data()), g(F_inverse_T.data());
     Matrix9 A = Matrix9::Identity();
     A.noalias() -= 2.0 / 3 * (f * g.transpose() + g * f.transpose());
