@@ -163,7 +163,8 @@ def main(results, picture, wanted):
             panels[1, column].axis("off")
     if solids:
         bar = plt.cm.ScalarMappable(scale, plt.cm.YlOrRd)
-        figure.colorbar(bar, ax=panels, shrink=0.7, extend="max", label="contact pressure [kPa]")
+        figure.colorbar(bar, ax=panels, shrink=0.7, extend="max", label="contact pressure [kPa]",
+                        ticks=plt.MaxNLocator(4))
     figure.savefig(picture, dpi=110)
     print(picture)
 
