@@ -20,7 +20,7 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
 
 /// Node positions [D] that bring the mesh onto the rod's centerline: cubic spline through the
 /// nodes, parallel-transported frame from the start (plus the rod's twist), section shrunk by
-/// 1/sqrt(stretch) and bent anticlastically, and moved apart where strands would overlap.
+/// 1/sqrt(stretch) and bent anticlastically. The ends are flat, round and across the z axis.
 std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod);
 
 }  // namespace bight::coupling

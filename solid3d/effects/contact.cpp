@@ -242,11 +242,4 @@ double Contact::max_penetration() const {
   return deepest;
 }
 
-double Contact::total_force() const {
-  double sum = 0;
-  for (const Sample& sample : samples_)
-    if (sample.faces) sum -= sample.weight * law_.slope(sample.gap);
-  return sum;
-}
-
 }  // namespace bight::solid3d

@@ -42,8 +42,6 @@ class Contact : public Effect {
   const ContactLaw& law() const { return law_; }
   /// Largest overlap now [D].
   double max_penetration() const;
-  /// Sum of the magnitudes of the contact forces [E D^2], each pair of faces counted once.
-  double total_force() const;
 
   const ContactSurface& surface() const { return surface_; }
 
