@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mechanics/knot_type.h"
 #include "solid3d/section_motion.h"
 
 namespace bight::solid3d {
+
+namespace {
+
+/// Of points along a line.
+struct Extent {
+  double low = std::numeric_limits<double>::max(), high = -low;
+  void add(double at) { low = std::min(low, at), high = std::max(high, at); }
+  double width() const { return high - low; }
+};
+
+}  // namespace
 
 Polyline centerline(const Mesh& mesh, const Vector& x) {
   Polyline line;
@@ -34,21 +46,19 @@ std::vector<double> flattening(const Mesh& mesh, const Vector& x) {
   constexpr int directions = 36;
   const auto places = section_places(mesh, x);
   std::vector<double> result(static_cast<size_t>(mesh.layers()), 0.0);
-  const double undeformed = 2 * mesh.section.points[mesh.section.rim[0]].norm();
   for (int k = 0; k < mesh.layers(); ++k) {
-    double least = undeformed;
     for (int i = 0; i < directions; ++i) {
       const double angle = std::numbers::pi * i / directions;
-      const Vector3 d = places[k].rotation * Vector3(std::cos(angle), std::sin(angle), 0);
-      double low = 1e300, high = -1e300;
+      const Vector2 d(std::cos(angle), std::sin(angle));
+      const Vector3 in_space = places[k].rotation.leftCols<2>() * d;
+      // Against the undeformed polygon in the same direction: its width varies by cos(pi/n).
+      Extent now, undeformed;
       for (int p : mesh.section.rim) {
-        const double at = d.dot(x.segment<3>(3 * mesh.node(k, p)));
-        low = std::min(low, at);
-        high = std::max(high, at);
+        now.add(in_space.dot(x.segment<3>(3 * mesh.node(k, p))));
+        undeformed.add(d.dot(mesh.section.points[p]));
       }
-      least = std::min(least, high - low);
+      result[k] = std::max(result[k], 1 - now.width() / undeformed.width());
     }
-    result[k] = 1 - least / undeformed;
   }
   return result;
 }

@@ -12,7 +12,8 @@ Polyline centerline(const Mesh& mesh, const Vector& x);
 /// |d2r/ds2| of a polyline over undeformed arc length s; one-sided at the ends.
 std::vector<double> curvature(const Polyline& line, const std::vector<double>& s);
 
-/// 1 - w/D, w the smallest width of each section between parallel lines in its plane.
+/// The largest 1 - w/w0 of each section, w its width between parallel lines in its plane and w0
+/// that of the undeformed section between lines in the same direction.
 std::vector<double> flattening(const Mesh& mesh, const Vector& x);
 
 /// Everything the writers show of a state, but tension and energies.
