@@ -67,6 +67,7 @@ class SolidPath : public PathModel {
     Vector x = last.x;
     if (ebar != last.ebar)
       x = history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar);
+    turn_grips(x, last.x);
     hold_grips(x, last.x);
     grip_.move(mesh_, ebar, x);
     if (symmetry_) symmetry_->impose(mesh_, x);
@@ -240,12 +241,17 @@ class SolidPath : public PathModel {
   void advance(Vector& x, const Vector& dx) const {
     const Vector before = x;
     advance_sections(mesh_, x, dx);
-    Vector turned = before;
-    unknowns_.advance(turned, dx);
-    for (const Turn& turn : unknowns_.turns())
-      for (int first : turn.carried) x.segment<3>(first) = turned.segment<3>(first);
+    turn_grips(x, before);
     hold_grips(x, before);
     if (symmetry_) symmetry_->impose(mesh_, x);
+  }
+
+  /// Turned ends as their angles say.
+  void turn_grips(Vector& x, const Vector& from) const {
+    Vector turned = from;
+    unknowns_.advance(turned, x - from);
+    for (const Turn& turn : unknowns_.turns())
+      for (int first : turn.carried) x.segment<3>(first) = turned.segment<3>(first);
   }
 
   /// Held coordinates exactly as they were.

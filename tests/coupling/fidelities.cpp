@@ -2,6 +2,7 @@
 #include <omp.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "coupling/sweep.h"
 #include "rod1d/overhand.h"
@@ -43,7 +44,7 @@ solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states
 
 }  // namespace
 
-TEST_CASE("a sweep along a straight rod is the reference mesh, and ends are flat") {
+TEST_CASE("a sweep along a straight rod is the reference mesh") {
   rod1d::RodState rod;
   for (int i = 0; i <= 40; ++i) {
     rod.s.push_back(0.25 * i);
@@ -55,7 +56,75 @@ TEST_CASE("a sweep along a straight rod is the reference mesh, and ends are flat
   for (int n = 0; n < mesh.nodes(); ++n) CHECK((nodes[n] - mesh.reference(n)).norm() < 1e-12);
 }
 
-TEST_CASE("the swept knot has no inverted cell") {
+TEST_CASE("a rod's twist turns the sections of the sweep about the tangent") {
+  constexpr double per_length = 0.15;
+  rod1d::RodState rod;
+  for (int i = 0; i <= 40; ++i) {
+    rod.s.push_back(0.25 * i);
+    rod.nodes.push_back({0, 0, 0.25 * i});
+    rod.curvature.push_back(0);
+    if (i > 0) rod.twist_angle.push_back(per_length * 0.25 * (i - 0.5));
+  }
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, rod);
+  const auto nodes = sweep(mesh, rod);
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 X = mesh.reference(n);
+    const double angle = per_length * std::clamp(X.z(), 0.125, 9.875), c = std::cos(angle);
+    const Vector3 turned(c * X.x() - std::sin(angle) * X.y(), std::sin(angle) * X.x() + c * X.y(),
+                         X.z());
+    CHECK((nodes[n] - turned).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("a bent and stretched rod is swept along its curve at constant volume") {
+  constexpr double kappa = 0.15, stretch = 1.05;
+  rod1d::RodState rod;
+  for (int i = 0; i <= 20; ++i) {
+    const double angle = 0.5 * i * stretch * kappa;
+    rod.s.push_back(0.5 * i);
+    rod.nodes.push_back({(1 - std::cos(angle)) / kappa, 0, std::sin(angle) / kappa});
+    rod.curvature.push_back(kappa);
+  }
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 0.5}, rod);
+  const auto nodes = sweep(mesh, rod);
+  const int per_layer = mesh.points_per_layer();
+  Vector x = Vector::Zero(3 * mesh.nodes() + 2 * static_cast<int>(mesh.cells.size()));
+  for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = nodes[n];
+  const solid3d::Strain strain(mesh, 3 * mesh.nodes(), {}, 1.0);
+  // Away from the ends, which are held flat, and where the spline knows no curvature.
+  for (int cell = 0; cell < strain.stencils(); ++cell) {
+    const double s = mesh.s[mesh.cells[cell][0] / per_layer];
+    if (s > 2 && s < 8) CHECK(strain.stress(x, cell).jacobian == Approx(1).margin(0.01));
+  }
+  for (int k = 0; k < mesh.layers(); ++k) {
+    if (mesh.s[k] < 2 || mesh.s[k] > 8) continue;
+    const Vector3& middle = nodes[mesh.node(k, mesh.section.centre[0])];
+    CHECK(std::hypot(middle.x() - 1 / kappa, middle.z()) == Approx(1 / kappa).margin(2e-4));
+  }
+}
+
+TEST_CASE("fine cells cover the knot with a margin, wherever it sits, and the tails are equal") {
+  const double begin = GENERATE(8.0, 15.0);
+  rod1d::RodState rod;
+  for (int i = 0; i <= 120; ++i) {
+    rod.s.push_back(0.25 * i);
+    rod.nodes.push_back({0, 0, 0.25 * i});
+    rod.curvature.push_back(rod.s.back() >= begin && rod.s.back() <= begin + 7 ? 0.3 : 0.0);
+  }
+  const SweepOptions options{.section_elements = 12};
+  const solid3d::Mesh mesh = swept_mesh(options, rod);
+  double coarsest = 0;
+  for (int k = 1; k < mesh.layers(); ++k) {
+    const double spacing = mesh.s[k] - mesh.s[k - 1], mirrored = 30 - mesh.s[mesh.layers() - 1 - k];
+    CHECK(mesh.s[k] == Approx(mirrored));
+    coarsest = std::max(coarsest, spacing);
+    if (mesh.s[k - 1] > begin - options.knot_margin && mesh.s[k] < begin + 7 + options.knot_margin)
+      CHECK(spacing <= options.axial_ratio * mesh.cell_width() + 1e-12);
+  }
+  CHECK(coarsest > 1.5 * options.axial_ratio * mesh.cell_width());
+}
+
+TEST_CASE("the swept knot has no inverted cell, and its ends are flat and round") {
   for (int cells : {12, 32}) {
     const solid3d::Mesh mesh = swept_mesh({.section_elements = cells}, seed());
     const auto nodes = sweep(mesh, seed());
@@ -66,6 +135,13 @@ TEST_CASE("the swept knot has no inverted cell") {
     for (int cell = 0; cell < strain.stencils(); ++cell)
       least = std::min(least, strain.stress(x, cell).least_jacobian);
     CHECK(least > 0.5);
+    for (int p = 0; p < mesh.points_per_layer(); ++p)
+      for (int layer : {0, mesh.layers() - 1}) {
+        const Vector3& grip = layer == 0 ? seed().nodes.front() : seed().nodes.back();
+        const Vector3 from_middle = nodes[mesh.node(layer, p)] - grip;
+        CHECK(std::abs(from_middle.z()) < 1e-12);
+        CHECK(from_middle.norm() == Approx(mesh.section.points[p].norm()).margin(1e-12));
+      }
   }
 }
 
@@ -90,6 +166,15 @@ TEST_CASE("the solid tightens in balance, on one thread as on two") {
   }
   REQUIRE(states.size() == 2);
   for (const auto& state : states) CHECK(state.determinant == 3);
+  // The start is clamped and the ends are L0 - ebar apart, whatever frame the solver works in.
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
+  const auto swept = sweep(mesh, seed());
+  CHECK(std::abs(two.steps.back().end_turn) > 1e-3);
+  for (const auto& state : states) {
+    for (int p = 0; p < mesh.points_per_layer(); ++p)
+      CHECK((state.nodes[p] - swept[p]).head<2>().norm() < 1e-9);
+    CHECK(state.nodes.back().z() - state.nodes.front().z() == Approx(length - state.ebar));
+  }
   // Sections flatten: the solid is softer than the rod it was swept from.
   CHECK(two.steps[0].tension < seed().tension);
   CHECK(two.steps[0].tension > 0.9 * seed().tension);
