@@ -49,6 +49,10 @@ TEST_CASE("curves part where their difference stays above a level") {
   CHECK(*parted_at(comparison, 1, 0.05) == Approx(15).margin(0.05));
   CHECK(*parted_at(comparison, 1, 0.10) == Approx(10).margin(0.05));
   CHECK_FALSE(parted_at(comparison, 1, 0.2));
+  // The solid is softer.
+  for (const auto& row : comparison.rows)
+    if (const auto difference = row.difference(1))
+      CHECK(*difference == Approx(-0.01 * (20 - row.ebar)).margin(1e-3));
   CHECK(comparison_text(comparison).find("5 % from ebar 15.0") != std::string::npos);
 }
 

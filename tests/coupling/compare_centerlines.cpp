@@ -11,14 +11,15 @@ using namespace bight::coupling;
 namespace {
 
 // A bump of curvature about `middle`, `spacing` apart.
-void write_bump(const std::filesystem::path& folder, double middle, double height, double spacing) {
+void write_bump(const std::filesystem::path& folder, double middle, double height, double spacing,
+                double ebar = 20) {
   std::filesystem::create_directories(folder / "centerline");
   std::vector<double> s, kappa;
   for (double at = 0; at <= 40; at += spacing) {
     s.push_back(at);
     kappa.push_back(height * std::exp(-(at - middle) * (at - middle) / 8));
   }
-  write_csv(folder / "centerline" / (state_name(20) + ".csv"), {{"s", s}, {"kappa", kappa}});
+  write_csv(folder / "centerline" / (state_name(ebar) + ".csv"), {{"s", s}, {"kappa", kappa}});
 }
 
 }  // namespace
@@ -34,4 +35,9 @@ TEST_CASE("curvature is compared about the knot's middle, wherever it sits") {
   CHECK(differences[0].largest_b == Approx(0.45).epsilon(1e-3));
   CHECK(curvature_text("rod", "solid", differences).find("10.0 % at ebar 20") != std::string::npos);
   CHECK(compare_centerlines(folder / "rod", folder / "absent").empty());
+  for (const char* name : {"rod", "solid"}) write_bump(folder / name, 20, 0.5, 0.1, -3.5);
+  const auto both = compare_centerlines(folder / "rod", folder / "solid");
+  REQUIRE(both.size() == 2);
+  CHECK(both[1].ebar == -3.5);
+  CHECK(both[1].mean == 0);
 }

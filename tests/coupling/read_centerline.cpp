@@ -50,10 +50,10 @@ TEST_CASE("a centerline is aligned without being bent") {
 
 TEST_CASE("what is no open curve is refused with file and line") {
   const TemporaryFolder folder;
-  const auto text =
-      GENERATE(std::string("x,y,z\n"), std::string("0,0,0\n0,0,1\n"), arc("", "%.1f,%.1f\n"),
-               arc("", "%.12g,%.12g,nan\n"), arc("", "%.12g,%.12g,hello\n"),
-               arc("a,b,c\n", "%.12g,%.12g,%.12g\n"), arc("", "0,0,0\n"));
+  const auto text = GENERATE(std::string("x,y,z\n"), std::string("0,0,0\n0,0,1\n"),
+                             arc("", "%.1f,%.1f\n"), arc("", "%.12g,%.12g,nan\n"),
+                             arc("", "%.12g,%.12g,hello\n"), arc("a,b,c\n", "%.12g,%.12g,%.12g\n"),
+                             arc("", "0,0,0\n"), arc("", "%.12g,%.12g,0\n") + "0,0,1\n0.1,0,0\n");
   CAPTURE(text);
   CHECK_THROWS_AS(read_centerline(folder.write("scan", text)), InputError);
 }

@@ -17,6 +17,8 @@ TEST_CASE("an absent or empty folder is fresh") {
   const TemporaryFolder folder;
   CHECK(take_folder(folder.path(), {}, false, false) == FolderState::fresh);
   CHECK(take_folder(folder / "absent", {}, true, false) == FolderState::fresh);
+  folder.write("file", "");
+  CHECK_THROWS_WITH(take_folder(folder / "file", {}, false, true), Catch::Contains("not a folder"));
 }
 
 TEST_CASE("the finished result of the very same scene is found again") {
@@ -42,13 +44,25 @@ TEST_CASE("resuming without a checkpoint is refused") {
 
 TEST_CASE("starting over clears what bight writes and leaves the rest") {
   const TemporaryFolder folder;
-  for (const char* name : {"scene.toml", "summary.json", "run.log", "notes.txt"})
-    folder.write(name, "");
-  std::filesystem::create_directories(folder / "rod/centerline");
-  folder.write("rod/force.csv", "");
+  folder.write("notes.txt", "");
+  const auto of_a_run = {"scene.toml",
+                         "summary.json",
+                         "run.log",
+                         "compare.csv",
+                         "curvature.csv",
+                         "rod/force.csv",
+                         "rod/rod.pvd",
+                         "rod/vtu/a.vtu",
+                         "rod/centerline/a.csv",
+                         "solid/force.csv",
+                         "solid/solid.pvd",
+                         "solid/vtu/a.vtu",
+                         "solid/centerline/a.csv"};
+  for (const std::filesystem::path name : of_a_run) {
+    std::filesystem::create_directories(folder.path() / name.parent_path());
+    folder.write(name.string(), "");
+  }
   CHECK(take_folder(folder.path(), {}, false, true) == FolderState::fresh);
   CHECK(std::filesystem::exists(folder / "notes.txt"));
-  CHECK_FALSE(std::filesystem::exists(folder / "summary.json"));
-  CHECK_FALSE(std::filesystem::exists(folder / "rod/force.csv"));
-  CHECK_FALSE(std::filesystem::exists(folder / "rod/centerline"));
+  for (const char* name : of_a_run) CHECK_FALSE(std::filesystem::exists(folder / name));
 }

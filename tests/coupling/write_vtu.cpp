@@ -27,6 +27,8 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   for (int i = 0; i < mesh.nodes(); ++i) state.nodes.push_back(2 * mesh.reference(i));
   state.jacobian.assign(mesh.cells.size(), 8.0);
   state.contact_pressure.assign(mesh.nodes(), 0.01);
+  state.pressure.assign(mesh.cells.size(), -0.02);
+  state.gap.assign(mesh.nodes(), 0.5);
   write_solid_vtu(folder / "state.vtu", mesh, state, scales);
 
   vtkNew<vtkXMLUnstructuredGridReader> reader;
@@ -44,6 +46,8 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   }
   CHECK(grid->GetCellData()->GetArray("J")->GetTuple1(23) == 8.0);
   CHECK(grid->GetPointData()->GetArray("contact_pressure")->GetTuple1(0) == Approx(1.25e4));
+  CHECK(grid->GetCellData()->GetArray("pressure")->GetTuple1(0) == Approx(-2.5e4));
+  CHECK(grid->GetPointData()->GetArray("gap")->GetTuple1(0) == Approx(0.00415));
   CHECK(grid->GetCellData()->GetArray("von_mises") == nullptr);  // not filled in
 }
 
@@ -55,6 +59,7 @@ TEST_CASE("the rod reads back as one line with orthonormal frames") {
     state.nodes.emplace_back(std::cos(t), std::sin(t), 0.3 * t);
     state.s.push_back(t);
     state.curvature.push_back(0.9);
+    state.contact_force.push_back(0.1);
   }
   write_rod_vtu(folder / "state.vtu", state, scales);
 
@@ -64,6 +69,8 @@ TEST_CASE("the rod reads back as one line with orthonormal frames") {
   vtkUnstructuredGrid* grid = reader->GetOutput();
   REQUIRE(grid->GetNumberOfCells() == 1);
   CHECK(grid->GetCell(0)->GetNumberOfPoints() == 41);
+  CHECK(grid->GetPointData()->GetArray("s")->GetTuple1(40) == Approx(8));
+  CHECK(grid->GetPointData()->GetArray("contact_force")->GetTuple1(7) == Approx(0.1 * 10375));
   CHECK(grid->GetPoint(0)[0] == Approx(0.0083));
   CHECK(grid->GetPointData()->GetArray("radius")->GetTuple1(7) == Approx(0.00415));
   for (int i = 0; i <= 40; ++i) {

@@ -11,12 +11,12 @@ using namespace bight;
 
 namespace {
 
-/// Twelve points of three coordinates and an angle that turns the last two about an axis askew.
+/// Twelve points of three coordinates and two angles that turn the last three about axes askew.
 struct Problem {
   Vector x;
   std::vector<int> blocks;
   std::vector<bool> held;
-  Turn turn;
+  std::vector<Turn> turns{2};
   std::vector<Image> images;
   EffectList effects;
 
@@ -24,29 +24,30 @@ struct Problem {
     const int points = 12;
     std::mt19937 generator(2);
     std::normal_distribution<double> normal;
-    x.resize(3 * points + 1);
+    x.resize(3 * points + 2);
     for (double& value : x) value = normal(generator);
-    x[3 * points] = 0;
+    x[3 * points] = x[3 * points + 1] = 0;
     for (int i = 0; i < points; ++i) blocks.push_back(3 * i);
-    blocks.push_back(3 * points);
+    for (int angle : {0, 1}) blocks.push_back(3 * points + angle);
     held.assign(x.size(), false);
     held[0] = held[1] = held[2] = true;  // a whole point
     held[7] = true;                      // one coordinate of another
-    turn.point = Vector3(0.3, -0.2, 0.1);
-    turn.axis = Vector3(1, 2, -0.5).normalized();
-    turn.angle = 3 * points;
-    turn.carried = {3 * (points - 2), 3 * (points - 1)};
+    const Vector3 axis = Vector3(1, 2, -0.5).normalized();
+    turns[0] = {{0.3, -0.2, 0.1}, axis, 3 * points, {3 * (points - 2), 3 * (points - 1)}};
+    turns[1] = {{-0.1, 0.4, 0.2}, Vector3::UnitX(), 3 * points + 1, {3 * (points - 3)}};
     std::vector<test::Springs::Spring> springs;
     for (int i = 0; i + 1 < points; ++i) springs.push_back({3 * i, 3 * i + 3, 1.0 + 0.1 * i, 0.7});
     for (int i = 0; i + 5 < points; ++i) springs.push_back({3 * i + 15, 3 * i, 0.5, 1.2});
     effects.push_back(std::make_unique<test::Springs>(springs));
   }
   Unknowns unknowns() const {
-    return Unknowns(blocks, static_cast<int>(x.size()), held, {turn}, images);
+    return Unknowns(blocks, static_cast<int>(x.size()), held, turns, images);
   }
-  /// Two points become images of others under half a turn about x, their neighbours among them.
+  /// Two points become images of others under half a turn about x, their neighbours among them;
+  /// the second turn goes against the first.
   void fold() {
     images.resize(x.size());
+    images[turns[1].angle] = {turns[0].angle, -1};
     for (const auto& [image, source] : {std::pair{3, 4}, std::pair{5, 8}})
       for (int c = 0; c < 3; ++c) {
         images[3 * image + c] = {3 * source + c, c == 0 ? 1.0 : -1.0};
@@ -65,7 +66,7 @@ TEST_CASE(
   CAPTURE(folded);
   if (folded) problem.fold();
   const Unknowns unknowns = problem.unknowns();
-  CHECK(unknowns.size() == 3 * 10 - 3 - 1 + 1 - (folded ? 6 : 0));
+  CHECK(unknowns.size() == 3 * 9 - 3 - 1 + 2 - (folded ? 7 : 0));
   Assembler assembler(unknowns, problem.effects);
   const int n = unknowns.size();
   const auto moved = [&](const Vector& step) {
@@ -82,7 +83,7 @@ TEST_CASE(
   for (int trial = 0; trial < 5; ++trial) {
     Vector v = Vector::Zero(n);
     if (trial == 0)
-      v[n - 1] = 1;  // the angle alone
+      v[n - 1] = 1;  // an angle alone
     else
       for (int i = 0; i < n; ++i) v[i] = std::sin(1.0 + i * trial);
     double slope_error[2], curvature_error[2];
@@ -103,14 +104,14 @@ TEST_CASE("a carried point keeps its distance from the axis, however far it turn
   Problem problem;
   const Unknowns unknowns = problem.unknowns();
   Vector dx = Vector::Zero(problem.x.size());
-  dx[problem.turn.angle] = 2.0;
+  dx[problem.turns[0].angle] = 2.0;
   Vector x = problem.x;
   unknowns.advance(x, dx);
-  for (const int first : problem.turn.carried) {
-    const Vector3 before = problem.x.segment<3>(first) - problem.turn.point;
-    const Vector3 after = x.segment<3>(first) - problem.turn.point;
+  for (const int first : problem.turns[0].carried) {
+    const Vector3 before = problem.x.segment<3>(first) - problem.turns[0].point;
+    const Vector3 after = x.segment<3>(first) - problem.turns[0].point;
     CHECK(after.norm() == Approx(before.norm()));
-    CHECK(after.dot(problem.turn.axis) == Approx(before.dot(problem.turn.axis)));
+    CHECK(after.dot(problem.turns[0].axis) == Approx(before.dot(problem.turns[0].axis)));
     CHECK((after - before).norm() > 0.1);
   }
 }

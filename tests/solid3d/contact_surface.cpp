@@ -1,6 +1,7 @@
 #include "solid3d/contact_surface.h"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "solid3d/surface_pairs.h"
 #include "tests/solid3d/shapes.h"
@@ -25,6 +26,15 @@ TEST_CASE("the skin of a straight rod is a cylinder of diameter D") {
   }
 }
 
+TEST_CASE("the patches of unequal layers share the area of the cylinder") {
+  const Mesh mesh = make_mesh(make_section(12), {0, 0.1, 0.4, 0.5, 0.9});
+  const ContactSurface surface(mesh);
+  for (int k = 1; k < 4; ++k) {
+    const double from = 0.5 * (mesh.s[k - 1] + mesh.s[k]), to = 0.5 * (mesh.s[k] + mesh.s[k + 1]);
+    CHECK(surface.sides() * surface.area(surface.patch(0, k)) == Approx(M_PI * (to - from)));
+  }
+}
+
 TEST_CASE("a projection is nearest and leaves the surface at its ends") {
   const Mesh mesh = test::straight_mesh(12, 3.0, 1.0);
   const ContactSurface surface(mesh);
@@ -38,6 +48,14 @@ TEST_CASE("a projection is nearest and leaves the surface at its ends") {
       CHECK((surface.evaluate(x, surface.weights(uv->x() + du, uv->y() + dv)).y - point).norm() >
             nearest);
   CHECK_FALSE(surface.project(x, Vector3(0.6, 0.2, -2), {0, 2}));
+  // The surface ends half a layer inside the rod.
+  const double layer = mesh.s[1];
+  const Vector straight = test::reference_state(mesh, 0);
+  for (const double inside : {0.3, 0.7}) {
+    const Vector3 first(0.6, 0.2, inside * layer), last(0.6, 0.2, mesh.s.back() - inside * layer);
+    CHECK(surface.project(straight, first, {0, 2}).has_value() == (inside > 0.5));
+    CHECK(surface.project(straight, last, {0, mesh.layers() - 3}).has_value() == (inside > 0.5));
+  }
 }
 
 TEST_CASE("near patches are other stretches of the rod, found both ways") {
@@ -55,4 +73,27 @@ TEST_CASE("near patches are other stretches of the rod, found both ways") {
   CHECK(pairs > 20);
   const auto straight = near_patches(surface, test::reference_state(mesh, 0), 0.1, 1.5);
   for (const auto& list : straight) CHECK(list.empty());
+}
+
+TEST_CASE("a patch is near all whose nine nodes come within the reach") {
+  const Mesh mesh = test::straight_mesh(12, 6.0, 1.0);
+  const ContactSurface surface(mesh);
+  const int half = mesh.layers() / 2;
+  const double width = 2 * mesh.section.points[mesh.section.rim[0]].norm();
+  const double apart = GENERATE(0.095, 0.105), reach = 0.1;
+  // The rod broken in two halves, side by side.
+  Vector x = test::reference_state(mesh, 0);
+  for (int n = mesh.node(half, 0); n < mesh.nodes(); ++n)
+    x.segment<3>(3 * n) += Vector3(width + apart, 0, -mesh.s[half]);
+  std::set<int> one, other;
+  const auto near = near_patches(surface, x, reach, 1.5);
+  for (int p = 0; p < surface.patches(); ++p)
+    for (int q : near[p])
+      if (surface.along(p) < half - 1 && surface.along(q) > half) {
+        one.insert(surface.around(p));
+        other.insert(surface.around(q));
+      }
+  // The node that faces the other half, and its two neighbours.
+  CHECK(one.size() == (apart < reach ? 3 : 0));
+  CHECK(other.size() == one.size());
 }

@@ -54,9 +54,12 @@ TEST_CASE("derivatives of every solid effect converge with the square of the ste
   const test::OrderOfConvergence order{1e-4, 4, 3.0};
   for (const auto& effect : rod.effects.list) {
     CAPTURE(effect->name());
+    REQUIRE(test::evaluate(*effect, generic, Vector::Zero(generic.size())).energy > 0);
     test::check_derivatives(*effect, rest, rod.positions, order);
     test::check_derivatives(*effect, shaken(rest, rod.positions, 1e-8), rod.positions, order);
     test::check_derivatives(*effect, generic, rod.positions, order);
+    // Coming from afar, pairs are found anew.
+    CHECK(test::evaluate(*effect, generic, Vector::Zero(generic.size())).energy > 0);
   }
 }
 
@@ -68,6 +71,33 @@ TEST_CASE("contact begins just where the tubes touch") {
   CHECK(rod.effects.contact->stencils() > 0);
   // The spline of 8 sides is round to 0.3 % of D.
   CHECK(rod.effects.contact->max_penetration() == Approx(0.015).margin(0.005));
+}
+
+TEST_CASE("contact is sampled on the whole surface of both strands, half each") {
+  Wound rod;
+  rod.effects.contact->refresh(rod.state(0.985));
+  const ContactSurface& surface = rod.effects.contact->surface();
+  std::vector<double> sampled(static_cast<size_t>(surface.patches()), 0.0);
+  for (const auto& sample : rod.effects.contact->samples()) sampled[sample.patch] += sample.weight;
+  int patches = 0;
+  for (int patch = 0; patch < surface.patches(); ++patch) {
+    if (sampled[patch] == 0) continue;
+    ++patches;
+    CHECK(2 * sampled[patch] == Approx(surface.area(patch)));
+  }
+  CHECK(patches > 20);
+}
+
+TEST_CASE("a step may close the gap and overlap a little, no more") {
+  Wound rod;
+  const Vector x = rod.state(1.06);
+  rod.effects.contact->refresh(x);
+  Vector dx = Vector::Zero(x.size());
+  for (int n = 0; n < rod.mesh.nodes(); ++n)
+    dx[3 * n + 2] = rod.mesh.reference(n).z() < 0.5 * rod.mesh.s.back() ? 0.15 : -0.15;
+  CHECK(0.3 * rod.effects.contact->longest_step(x, dx) == Approx(0.06 + 0.08).margin(0.01));
+  CHECK(rod.effects.contact->longest_step(x, -dx) == 1);
+  CHECK(rod.effects.contact->longest_step(x, 0.1 * dx) == 1);
 }
 
 TEST_CASE("no effect feels a rigid motion, and its forces balance") {
@@ -104,6 +134,15 @@ TEST_CASE("a linear deformation strains every cell alike and keeps inner nodes i
   Vector settled = x;
   effects.strain->settle(settled);
   const Matrix3 stress = effects.strain->stress(settled, 0).cauchy;
+  // mu J^(-5/3) dev(F F^T) + K (J - 1) 1
+  const double mu = NeoHookean::with_bulk_ratio(parameters.bulk_to_shear).shear_modulus;
+  const double J = F.determinant(), bulk_modulus = parameters.bulk_to_shear * mu;
+  const Matrix3 B = F * F.transpose(), I = Matrix3::Identity();
+  const Matrix3 exact =
+      mu * std::pow(J, -5.0 / 3) * (B - B.trace() / 3 * I) + bulk_modulus * (J - 1) * I;
+  CHECK((stress - exact).norm() < 1e-9 * exact.norm());
+  CHECK(effects.strain->stress(settled, 0).jacobian == Approx(J));
+  CHECK(effects.strain->stress(settled, 0).least_jacobian == Approx(std::min(J, 1.0)));
   for (int cell = 1; cell < effects.strain->stencils(); ++cell)
     CHECK((effects.strain->stress(settled, cell).cauchy - stress).norm() < 1e-10 * stress.norm());
   std::vector<bool> on_rim(static_cast<size_t>(mesh.points_per_layer()), false);
@@ -112,6 +151,62 @@ TEST_CASE("a linear deformation strains every cell alike and keeps inner nodes i
     for (int p = 0; p < mesh.points_per_layer(); ++p)
       if (!on_rim[p])
         CHECK(all.gradient.segment<3>(3 * mesh.node(k, p)).norm() < 1e-10 * stress.norm());
+}
+
+TEST_CASE("Young's modulus is 1 at any ratio of bulk and shear modulus") {
+  for (const double ratio : {1.0, 20.0, 1000.0}) {
+    const double mu = NeoHookean::with_bulk_ratio(ratio).shear_modulus, bulk = ratio * mu;
+    CHECK(9 * bulk * mu / (3 * bulk + mu) == Approx(1).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("dilatation and pressure: recovered by the linear part of settling, work as stated") {
+  const Mesh mesh = test::straight_mesh(12, 1.0, 1.0);
+  const int positions = 3 * mesh.nodes(), cells = static_cast<int>(mesh.cells.size());
+  SolidParameters parameters;
+  parameters.bulk_to_shear = 20;
+  SolidEffects effects = make_effects(mesh, parameters, positions);
+  Strain& strain = *effects.strain;
+  const Vector away = shaken(test::reference_state(mesh, 2 * cells), positions, 1e-2);
+  Vector x = away;
+  strain.settle(x);
+
+  // From anywhere, without motion: to the settled state. From there: along with the motion.
+  Vector dx = Vector::Zero(x.size());
+  strain.recover(away, dx);
+  CHECK((away + dx - x).norm() < 1e-13);
+  const Vector v = shaken(Vector::Zero(x.size()), positions, 1.0);
+  dx = v;
+  strain.recover(x, dx);
+  constexpr double h = 1e-5;
+  Vector up = x + h * v, down = x - h * v;
+  strain.settle(up);
+  strain.settle(down);
+  CHECK(((up - down) / (2 * h) - dx).norm() < 1e-7 * dx.norm());
+
+  // dPi/dp = v - V theta; a miss of V t costs U'' = K and the quadratic term mu.
+  const auto energy = [&](const Vector& at) {
+    double sum = 0;
+    for (int i = 0; i < strain.stencils(); ++i) {
+      ElementSlot slot{};
+      strain.element(at, i, Order::energy, slot);
+      sum += slot.energy;
+    }
+    return sum;
+  };
+  const double mu = NeoHookean::with_bulk_ratio(20).shear_modulus, t = 0.01;
+  double volume = 0;
+  Vector off = x, pressed = x;
+  for (int cell = 0; cell < cells; ++cell) {
+    off[positions + 2 * cell] += t;
+    pressed[positions + 2 * cell] += t;
+    pressed[positions + 2 * cell + 1] += 1;
+    HexNodes X;
+    for (int a = 0; a < 8; ++a) X.col(a) = mesh.reference(mesh.cells[cell][a]);
+    volume += hex_reference(X).volume;
+  }
+  CHECK(energy(pressed) - energy(off) == Approx(-volume * t));
+  CHECK(energy(off) - energy(x) == Approx(0.5 * volume * t * t * (20 * mu + mu)));
 }
 
 TEST_CASE("an inverted cell is inadmissible") {

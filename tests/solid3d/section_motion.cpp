@@ -38,6 +38,27 @@ TEST_CASE("a linear step of rotation is taken as a rotation, sections keep their
   }
 }
 
+TEST_CASE("a step of translation, rotation and strain is taken as such, section by section") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  Vector x = test::reference_state(mesh, 2), dx = Vector::Zero(x.size());
+  const Vector3 w(0.2, -0.1, 0.4), shift(0.1, 0.3, -0.2);
+  const double swelling = 0.05;
+  const auto in_section = [&](int n) {
+    const Vector3 X = mesh.reference(n);
+    return Vector3(X.x(), X.y(), 0);
+  };
+  for (int n = 0; n < mesh.nodes(); ++n)
+    dx.segment<3>(3 * n) = w.cross(mesh.reference(n)) + shift + swelling * in_section(n);
+  advance_sections(mesh, x, dx);
+  const Matrix3 R = Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix();
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 centre = mesh.reference(n) - in_section(n);
+    const Vector3 expected =
+        centre + w.cross(centre) + shift + (1 + swelling) * (R * in_section(n));
+    CHECK((x.segment<3>(3 * n) - expected).norm() < 1e-13);
+  }
+}
+
 TEST_CASE("a steady screw is extrapolated exactly, from two states and from three") {
   const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
   const std::vector<Station> two{{10.0, turned(mesh, 0.1)}, {9.5, turned(mesh, 0.2)}};
@@ -45,4 +66,19 @@ TEST_CASE("a steady screw is extrapolated exactly, from two states and from thre
   const std::vector<Station> three{
       {10.5, turned(mesh, 0.0)}, {10.0, turned(mesh, 0.1)}, {9.5, turned(mesh, 0.2)}};
   CHECK((extrapolate_sections(mesh, three, 9.0) - turned(mesh, 0.3)).norm() < 1e-11);
+}
+
+TEST_CASE("a screw that gains speed is extrapolated exactly over unequal steps") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  const auto at = [&](double ebar) {
+    const double e = 10 - ebar, angle = 0.3 * e + 0.2 * e * e, rise = e - 0.5 * e * e;
+    const Matrix3 R = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+    Vector x = test::reference_state(mesh, 2);
+    for (int n = 0; n < mesh.nodes(); ++n)
+      x.segment<3>(3 * n) = R * mesh.reference(n) + rise * Vector3::UnitZ();
+    x.tail<2>() = Vector2(2 * ebar, 1 - ebar);
+    return Station{ebar, x};
+  };
+  const Vector guess = extrapolate_sections(mesh, {at(10.5), at(10), at(9.7)}, 9.5);
+  CHECK((guess - at(9.5).x).norm() < 1e-11);
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "solid3d/effects.h"
+#include "solid3d/effects/grip.h"
 #include "tests/derivatives.h"
 #include "tests/solid3d/shapes.h"
 
@@ -83,4 +84,29 @@ TEST_CASE("one half of a symmetric state carries half of every energy") {
     CHECK(2 * test::evaluate(*half.list[i], x, zero).energy == Approx(energy).epsilon(1e-9));
     CHECK(half.list[i]->stencils() < 0.6 * whole.list[i]->stencils());
   }
+}
+
+TEST_CASE("a straight rod names no axis") {
+  const Mesh mesh = test::straight_mesh(12, 13.3, 1.0);
+  std::vector<Vector3> start;
+  for (int n = 0; n < mesh.nodes(); ++n) start.push_back(mesh.reference(n));
+  CHECK(!TwoFold::find(mesh, start));
+}
+
+TEST_CASE("whatever the unknowns of one half do, the whole stays symmetric") {
+  const Helix helix;
+  const TwoFold symmetry = *TwoFold::find(helix.mesh, helix.start);
+  const bool turning = GENERATE(false, true);
+  const Grip grip{turning, turning, {}};
+  const Vector x = helix.in_frame(symmetry, grip.coordinates(helix.mesh) - 3 * helix.mesh.nodes());
+  const Unknowns unknowns = grip.unknowns(helix.mesh, static_cast<int>(x.size()), &symmetry);
+  const Vector step = test::shaken(Vector::Zero(unknowns.size()), unknowns.size(), 0.01);
+  Vector moved = x;
+  unknowns.advance(moved, unknowns.expand(x, step));
+  CHECK((moved - x).cwiseAbs().maxCoeff() > 1e-2);
+  Vector imposed = moved;
+  symmetry.impose(helix.mesh, imposed);
+  CHECK((imposed - moved).cwiseAbs().maxCoeff() < 1e-10);
+  const int last = helix.mesh.node(helix.mesh.layers() - 1, 0);
+  CHECK((moved.segment<3>(3 * last) != x.segment<3>(3 * last)) == turning);
 }
