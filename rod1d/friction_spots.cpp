@@ -22,7 +22,8 @@ struct Place {
   std::array<double, 3> angle{0, 1, 0};
 
   Place(const Rod& rod, int segment, double u)
-      : segment(segment), curve(curve_segment(rod.rest_length, segment).weights(u * rod.rest_length[segment])) {
+      : segment(segment),
+        curve(curve_segment(rod.rest_length, segment).weights(u * rod.rest_length[segment])) {
     // The angle is that of a segment at its middle, linear in between.
     const double s = (u - 0.5) * rod.rest_length[segment];
     const int side = s < 0 ? -1 : 1, other = segment + side;

@@ -148,7 +148,7 @@ RodModel::~RodModel() = default;
 /// Friction holds the knot by itself: then no node is pinned.
 bool RodModel::choose_pin(const Vector& x) {
   const Pin before = pin_;
-  if (effects_.friction && tension_ > 0) {
+  if (rubs_) {
     pin_ = {};
     return before.node >= 0;
   }
@@ -176,6 +176,11 @@ void RodModel::set_equations() {
   for (int i = 0; i < angles(); ++i) blocks.push_back(rod_.angle(i));
   seconds_ = seconds();
   equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
+}
+
+void RodModel::let_rub() {
+  rubs_ = effects_.friction != nullptr;
+  if (choose_pin(accepted_.back().x)) set_equations();
 }
 
 void RodModel::set_tied() {
@@ -280,22 +285,22 @@ NewtonResult RodModel::solve_contact(Vector x) {
   double stiffness = effects_.contact ? effects_.contact->law().stiffness : 0;
   NewtonResult result;
   int iterations = 0, factorisations = 0;
-  const bool rubs = effects_.friction && tension_ > 0;
   double tension = 0, change = 0;
   for (int pass = 0; pass < max_passes; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
-    if (rubs) freeze(pass == 0 ? history_.x : result.x);
+    if (rubs_) freeze(pass == 0 ? history_.x : result.x);
     result = solve_once(pass == 0 ? x : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
     const double last_change =
         std::abs(std::exchange(change, grip_forces(rod_, result.gradient).tension() - tension));
     tension += change;
-    // The changes fall like a geometric series: what is left is its rest.
-    const double left =
-        pass < 2 ? std::abs(change)
-                 : change * change / std::max(last_change - std::abs(change), 1e-3 * last_change);
-    const bool settled = !rubs || (pass > 0 && left <= settled_change * force_scale_);
+    // The changes fall like a geometric series, at last: what is left is its rest. A small change
+    // after a large one may be an overshoot.
+    const double left = change * change / std::max(last_change - std::abs(change), 1e-30);
+    const bool settled =
+        !rubs_ || (pass > 1 && last_change <= 10 * settled_change * force_scale_ &&
+                   std::min(left, std::abs(change)) <= settled_change * force_scale_);
     const double overlap = effects_.contact->touching(result.x).second;
     const bool first = tension_ == 0;
     if (settled && overlap <= parameters_.penetration &&
@@ -308,7 +313,7 @@ NewtonResult RodModel::solve_contact(Vector x) {
     if (overlap > parameters_.penetration || first)
       stiffness *= std::clamp(overlap / aimed, 0.3, 4.0);
   }
-  if (result.ok() && rubs && tension < 0) {
+  if (result.ok() && rubs_ && tension < 0) {
     result.status = NewtonStatus::stalled;
     result.reason = "friction keeps the knot shut: the ends would have to push";
   }

@@ -25,6 +25,8 @@ class RodModel final : public PathModel {
   /// Knot type of the start: what every later state must have.
   int determinant() const { return determinant_; }
 
+  /// From now on friction acts; until then the knot is formed without.
+  void let_rub();
   /// The knot is tied: the finish end's turn is counted from here, and a clamped one held.
   void set_tied();
   /// Turns the held finish end about the pulling axis by `angle` [rad].
@@ -69,6 +71,7 @@ class RodModel final : public PathModel {
   Frames source_;            ///< frames that twist is counted from; empty without twist
   FrictionHistory history_;  ///< the newest accepted state; empty without twist
   bool finish_turns_ = true;
+  bool rubs_ = false;                         ///< friction acts
   double tied_angle_ = 0, finish_angle_ = 0;  ///< of the last segment: when tied, when held [rad]
   RodEffects effects_;
   std::unique_ptr<Equations> equations_;

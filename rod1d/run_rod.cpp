@@ -41,23 +41,27 @@ Polyline start_of(const RodParameters& parameters) {
 constexpr double mobilising = 2;
 
 /// Where the path is entered from: the first waypoint, or with friction from a little before it.
-std::vector<double> approach(const RodParameters& parameters) {
+double approach(const RodParameters& parameters) {
   const std::vector<double>& waypoints = parameters.path.waypoints;
   const double first = waypoints.front();
-  if (parameters.friction == 0) return {first};
+  if (parameters.friction == 0) return first;
   const bool loosens = waypoints.size() > 1 && waypoints[1] > first;
-  return {loosens ? first - mobilising : first + mobilising, first};
+  return loosens ? first - mobilising : first + mobilising;
 }
 
 /// From the start's own ebar to the first waypoint.
 PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObserver& observer) {
   Path path = parameters.path;
-  path.waypoints = approach(parameters);
-  path.waypoints.insert(path.waypoints.begin(), model.start_ebar());
+  path.waypoints = {model.start_ebar(), approach(parameters)};
   path.record.clear();
   PathObserver silent;
   silent.interrupted = observer.interrupted;
   PathOutcome outcome = follow(path, model, silent);
+  if (parameters.friction > 0 && outcome.status == PathStatus::finished) {
+    model.let_rub();
+    path.waypoints = {approach(parameters), parameters.path.waypoints.front()};
+    outcome = follow(path, model, silent);
+  }
   if (outcome.status != PathStatus::finished) return outcome;
   // The finish may turn while the knot is tied, so that the rod is free of twist when it is
   // clamped.
