@@ -3,6 +3,7 @@
 
 #include "mechanics/newton.h"
 #include "rod1d/effects/bend.h"
+#include "rod1d/effects/load.h"
 #include "rod1d/effects/stretch.h"
 #include "rod1d/measure.h"
 
@@ -10,26 +11,6 @@ using namespace bight;
 using namespace bight::rod1d;
 
 namespace {
-
-/// A dead force on one node: W = -f . x.
-class DeadLoad final : public Effect {
- public:
-  DeadLoad(int node, const Vector3& force)
-      : at_{Rod::position(node), Rod::position(node) + 1, Rod::position(node) + 2}, force_(force) {}
-  std::string_view name() const override { return "dead load"; }
-  int stencils() const override { return 1; }
-  std::span<const int> coordinates(int) const override { return at_; }
-  void element(const Vector& x, int, Order order, ElementSlot& slot) const override {
-    Element<3> out;
-    out.energy = -force_.dot(x.segment<3>(at_[0]));
-    out.gradient = -force_;
-    slot.set(out, order);
-  }
-
- private:
-  std::array<int, 3> at_;
-  Vector3 force_;
-};
 
 /// A rod of unit bending stiffness and length along z, hardly extensible, clamped at the start. The
 /// first segment lies half inside the clamp: bending begins at the middle of it.
@@ -90,7 +71,9 @@ struct Column {
 /// Tip of a cantilever under a dead load a = P L^2/B across: sideways and shortening, over L.
 Vector2 tip_under(double a, int segments) {
   Column column(segments, 1e6);
-  column.effects.push_back(std::make_unique<DeadLoad>(column.rod.nodes() - 1, Vector3(a, 0, 0)));
+  auto load = std::make_unique<Load>();
+  load->add(column.rod.nodes() - 1, Vector3(a, 0, 0));
+  column.effects.push_back(std::move(load));
   column.solve();
   return {column.x[column.tip()], 1 - column.x[column.tip() + 2]};
 }
