@@ -13,6 +13,7 @@ namespace bight::coupling {
 namespace {
 
 constexpr double shortest_rod = 12;    ///< L0/D: an open tight overhand alone takes about 10
+constexpr double longest_rod = 1e5;    ///< L0/D: the range of ebar, too
 constexpr double shortest_reach = 4;   ///< L/D: two diameters of straight tail at each end
 constexpr double largest_stretch = 2;  ///< L/L0; the rod is linear, rubber is not
 
@@ -57,11 +58,14 @@ class Check {
   }
 
   bool length() {
-    const bool fits = scene_.slenderness() >= shortest_rod;
-    if (!fits)
+    const double slenderness = scene_.slenderness();
+    if (!(slenderness >= shortest_rod))
       refuse("rod.length", fmt::format("{:.3g} diameters are too short for a knot; at least {}",
-                                       scene_.slenderness(), shortest_rod));
-    return fits;
+                                       slenderness, shortest_rod));
+    if (slenderness > longest_rod)
+      refuse("rod.length", fmt::format("{:.3g} diameters are too long to simulate; at most {:g}",
+                                       slenderness, longest_rod));
+    return slenderness >= shortest_rod && slenderness <= longest_rod;
   }
 
   void material() {

@@ -43,6 +43,7 @@ TEST_CASE("bad input ends with 2, one message, and nothing written") {
   folder.write("poisson.toml", small_scene_with("[path]", "poissons_ratio = 2\n[path]"));
   folder.write("loose.toml", small_scene_with("[30, 20]", "[50, 20]"));
   folder.write("nan.toml", small_scene_with("\"8.3 mm\"", "nan"));
+  folder.write("long.toml", small_scene_with("\"350 mm\"", "1e300"));
   folder.write("empty.toml", "");
   folder.write("binary.toml", std::string("\x7f"
                                           "ELF\0\1\2\xff",
@@ -50,10 +51,11 @@ TEST_CASE("bad input ends with 2, one message, and nothing written") {
   folder.write("good.toml", quick_scene());
   const std::string words = GENERATE(
       "run typo.toml", "rod unit.toml", "solid negative.toml", "run poisson.toml", "run loose.toml",
-      "run nan.toml", "run empty.toml", "run binary.toml", "run missing.toml", "run .",
-      "check typo.toml", "run good.toml --set rod.diameter=-1", "run good.toml --threads 0",
-      "run good.toml --threads two", "run", "run good.toml --unheard-of", "tie good.toml", "",
-      "compare missing.csv", "study good.toml", "report somewhere", "run good.toml --set");
+      "run nan.toml", "run long.toml", "run empty.toml", "run binary.toml", "run missing.toml",
+      "run .", "check typo.toml", "run good.toml --set rod.diameter=-1",
+      "run good.toml --threads 0", "run good.toml --threads two", "run",
+      "run good.toml --unheard-of", "tie good.toml", "", "compare missing.csv", "study good.toml",
+      "report somewhere", "run good.toml --set");
   const Outcome outcome = call(folder, words);
   CAPTURE(words, outcome.complained);
   CHECK(outcome.status == 2);

@@ -94,6 +94,8 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene_with("[30, 20]", "[30, 20]\nrecord = [10]"), {":8", "path.record", "20 to 30"}},
       {small_scene + "[solid3d]\nseed_ebar = 5\n", {":9", "solid3d.seed_ebar", "20 to 30"}},
       {small_scene_with("350 mm", "80 mm"), {"rod.length", "too short"}},
+      {small_scene_with("\"350 mm\"", "1e300"), {":2", "rod.length", "too long"}},
+      {small_scene_with("8.3 mm", "1e-320 m"), {"rod.length", "too long"}},
       {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
       {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "solid", "contact"}},
       {small_scene + "[ends]\nturn = \"90 degree\"\n", {":9", "ends.turn", "clamped"}},
