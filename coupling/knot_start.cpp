@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "coupling/errors.h"
 #include "coupling/read_centerline.h"
-#include "rod1d/overhand.h"
 
 namespace bight::coupling {
 namespace {
@@ -16,8 +14,6 @@ namespace {
 // A file's length may differ this much from rod.length; the rod takes up the difference as it
 // relaxes.
 constexpr double length_tolerance = 0.02;
-// Of a start, per diameter.
-constexpr double start_points = 10;
 
 Polyline from_file(const Scene& scene) {
   Polyline line = read_centerline(scene.centerline);
@@ -34,15 +30,7 @@ Polyline from_file(const Scene& scene) {
 
 Polyline knot_start(const Scene& scene) {
   if (!scene.centerline.empty()) return from_file(scene);
-  if (scene.knot != "overhand")
-    throw InputError(scene.knot + " cannot be tied yet; there are overhand and knot.centerline");
-  const double ebar = std::max(scene.path.waypoints.front(), rod1d::loosest_overhand);
-  try {
-    const int points = static_cast<int>(start_points * scene.slenderness());
-    return rod1d::overhand_start(scene.slenderness(), ebar, points);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(error.what());
-  }
+  return {};
 }
 
 }  // namespace bight::coupling

@@ -5,8 +5,8 @@
 
 namespace bight::coupling {
 
-/// The tied start of a scene [D]: its knot laid out loosely, or its centerline file. Throws
-/// InputError when there is no such start.
+/// The tied start of a scene from its centerline file [D]; nothing for a knot that the rod is to
+/// tie. Throws InputError when there is no such start.
 Polyline knot_start(const Scene& scene);
 
 }  // namespace bight::coupling

@@ -30,6 +30,7 @@ std::string status_line(const std::string& fidelity, const StepRow& row) {
       fidelity, row.ebar, row.increment, normalised_force(row.tension), row.newton_iterations,
       row.contact_pairs, row.residual, row.wall_s);
   if (row.cutbacks > 0) line += fmt::format("  cutbacks {} ({})", row.cutbacks, row.cut_reason);
+  if (row.snapped > 0) line += "  SNAP to another branch of equilibria";
   return line;
 }
 

@@ -132,6 +132,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod1d::RodParameters rod;
   rod.length = scene.slenderness();
   rod.poissons_ratio = scene.poissons_ratio;
+  rod.knot = scene.knot;
   rod.start = knot_start(scene);
   rod.finish_turns = scene.finish_turns;
   rod.finish_turn = scene.finish_turn;

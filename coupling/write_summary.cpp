@@ -63,6 +63,9 @@ Json path_numbers(const PathOutcome& outcome, const std::vector<StepRow>& steps)
   result["worst_reaction_mismatch"] = worst(&StepRow::reaction_mismatch).reaction_mismatch;
   result["most_contact_pairs"] = worst(&StepRow::contact_pairs).contact_pairs;
   result["end_turn"] = steps.back().end_turn;
+  result["snaps_at_ebar"] = Json::array();
+  for (const StepRow& row : steps)
+    if (row.snapped > 0) result["snaps_at_ebar"].push_back(row.ebar);
   return result;
 }
 

@@ -35,6 +35,8 @@ struct StepRow {
   double reaction_mismatch = 0;  ///< |T(start) + T(finish)| / T
   double min_jacobian = 1;       ///< smallest volume ratio of a cell (solid)
   double end_turn = 0;           ///< rotation of the finish end about the pulling axis [rad]
+  double snapped = 0;  ///< energy lost by jumping to another branch of equilibria [E D^3]; 0: none
+  double ebar_unstretched = 0;  ///< ebar of a rod of the stretched length: ebar + elongation/D
 };
 
 enum class PathStatus { finished, gave_up, interrupted };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -17,7 +18,9 @@ namespace bight::rod1d {
 namespace {
 
 /// Accepted states through which the next one is extrapolated, at most, and those kept for it.
-constexpr size_t extrapolated = 4, kept = 12;
+constexpr size_t most_extrapolated = 4, kept = 12;
+/// Iterations of a solve after which the next guess is looked at more closely.
+constexpr int hard_iterations = 8;
 /// Steps in ebar below this are no steps.
 constexpr double same_ebar = 1e-9;
 /// Share of the allowed overlap that the contact stiffness aims at.
@@ -27,6 +30,8 @@ constexpr double start_points = 10;
 constexpr int most_start_points = 20000;
 /// Part of the way that the nodes go in one step towards where they are wished.
 constexpr double mesh_pull = 0.3;
+/// Smallest part of the energy whose loss is a snap.
+constexpr double snap_energy = 2e-3;
 /// Times that the nodes are chosen anew at the first equilibrium.
 constexpr int first_meshes = 3;
 /// Wished places are found from about this many nodes.
@@ -94,8 +99,8 @@ Polyline RodModel::meshed(const Polyline& start) {
   const Polyline fine = resampled(start, points);
   std::vector<double> arc;
   for (int i = 0; i <= points; ++i) arc.push_back(length_ * i / points);
-  const std::vector<double> nodes =
-      spread_nodes(arc, wished_lengths(arc, fine), parameters_.segments);
+  const std::vector<double> nodes = spread_nodes(
+      arc, wished_lengths(arc, fine), parameters_.segments, middle_node(), 0.5 * length_);
   set_arc(nodes);
   return points_at(arc, fine, nodes);
 }
@@ -108,7 +113,7 @@ void RodModel::set_arc(const std::vector<double>& arc) {
   if (effects_.contact) effects_.contact->set_law(law);
 }
 
-/// Where the nodes of an accepted state are wished; a held node stays where it is.
+/// Where the nodes of an accepted state are wished; the middle one stays where it is.
 std::vector<double> RodModel::wished_arc(const Accepted& at) const {
   const int n = rod_.nodes(), stride = std::max(1, n / mesh_points);
   std::vector<double> arc;
@@ -117,8 +122,8 @@ std::vector<double> RodModel::wished_arc(const Accepted& at) const {
     arc.push_back(at.arc[i]);
     line.push_back(at.x.segment<3>(Rod::position(i)));
   }
-  return spread_nodes(arc, wished_lengths(arc, line), rod_.segments(), pin_.node,
-                      pin_.node < 0 ? 0.0 : at.arc[pin_.node]);
+  return spread_nodes(arc, wished_lengths(arc, line), rod_.segments(), middle_node(),
+                      at.arc[middle_node()]);
 }
 
 /// Nodes for the next solve: they go on as they went in the last step (which, unlike polynomials of
@@ -140,10 +145,10 @@ RodModel::~RodModel() = default;
 
 /// Two motions cost a round rod without friction nothing, or next to nothing, and would be left to
 /// round-off: turning about the axis as a whole, and sliding of the knot along the rod (its energy
-/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). One node, far from the
-/// axis, is held across its radius against the first and, if the rod is knotted, along the axis
-/// against the second. A turn does no work, so that reaction is zero; the other one is what the
-/// ends' tensions differ by: zero for a knot that is symmetric about its middle node.
+/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). The node that is farthest
+/// from the axis is held across its radius against the first; a turn does no work, so that reaction
+/// is zero. If the rod is knotted, the middle node is held along the axis against the second; that
+/// reaction is what the ends' tensions differ by, zero for a knot that is symmetric about it.
 ///
 /// Friction holds the knot by itself: then no node is pinned.
 bool RodModel::choose_pin(const Vector& x) {
@@ -169,7 +174,7 @@ void RodModel::set_equations() {
   std::vector<bool> held = held_coordinates(rod_, parameters_.twist, finish_turns_);
   if (pin_.node >= 0) {
     held[Rod::position(pin_.node) + pin_.axis] = true;
-    held[Rod::position(pin_.node) + 2] = determinant_ != 1;
+    held[Rod::position(middle_node()) + 2] = determinant_ != 1;
   }
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
@@ -232,11 +237,11 @@ RodModel::Extrapolation RodModel::extrapolation(double ebar, size_t most) const 
 
 /// Extrapolated node by node, places on the rod and in space alike: what moves with the knot moves
 /// little. Then taken at the places where the next nodes are to be.
-Vector RodModel::predict(double ebar) const {
+Vector RodModel::extrapolated(double ebar, size_t most) const {
   const Accepted& now = accepted_.back();
   Vector x = now.x;
   if (tension_ > 0 && std::abs(ebar - now.ebar) > same_ebar) {
-    const Extrapolation through = extrapolation(ebar, extrapolated);
+    const Extrapolation through = extrapolation(ebar, most);
     std::vector<double> arc(now.arc.size(), 0.0);
     if (through.size() == 1) {
       x = tangent(ebar);
@@ -260,9 +265,13 @@ Vector RodModel::predict(double ebar) const {
 
 NewtonResult RodModel::solve_once(const Vector& guess) {
   NewtonOptions options;
-  options.max_iterations = tension_ > 0 ? 60 : 500;
+  options.max_iterations = tension_ > 0 ? 100 : 500;
   options.energy_tolerance = 1e-10 * force_scale_;
-  options.force_tolerance = 1e-7 * force_scale_;
+  // No better than what the round-off of the places in space does to the stretching force.
+  const double shortest = *std::min_element(rod_.rest_length.begin(), rod_.rest_length.end());
+  const double round_off = std::numeric_limits<double>::epsilon() * 0.5 * length_ / shortest;
+  options.force_tolerance =
+      std::max(1e-7 * force_scale_, 4 * rod_.stretching_stiffness * round_off);
   options.largest_move = 1;
   options.bound.first_rise = 1e-8 * force_scale_;  // round-off of the energy
   return newton(equations_->system, guess, options);
@@ -321,13 +330,34 @@ NewtonResult RodModel::solve_contact(Vector x) {
   return result;
 }
 
+Vector RodModel::predict(double ebar) const { return extrapolated(ebar, most_extrapolated); }
+
+/// The guess of least energy: where the path is not smooth (a snap, a soft mode that wanders) fewer
+/// states, or the last one alone, foretell more than a polynomial of high degree.
+Vector RodModel::best_guess(const Vector& guess, double ebar) {
+  if (tension_ == 0 || effects_.friction || last_iterations_ < hard_iterations) return guess;
+  const auto energy = [&](const Vector& x) {
+    equations_->assembler.refresh(x);
+    return equations_->assembler.energy(x);
+  };
+  Vector best = guess;
+  double least = energy(guess);
+  for (size_t most = most_extrapolated - 1; most >= 2; --most) {
+    Vector x = extrapolated(ebar, most);
+    const double here = energy(x);
+    if (here < least) least = here, best = std::move(x);
+  }
+  return best;
+}
+
 NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   source_ = history_.frames;
   if (follows_) set_arc(next_arc(ebar));
   if (effects_.contact) effects_.contact->set_law({stiffness_, effects_.contact->law().onset});
-  Vector x = guess;
+  Vector x = best_guess(guess, ebar);
   place_grips(rod_, end_to_end(ebar), x);
-  NewtonResult result = solve_contact(std::move(x));
+  NewtonResult result = solve_contact(x);
+  last_iterations_ = result.iterations;
   // The nodes of the start were chosen for its shape, which the first equilibrium changes a lot.
   for (int k = 0; follows_ && tension_ == 0 && result.ok() && k < first_meshes; ++k) {
     const Accepted first{ebar, rod_.arc_length(), result.x};
@@ -346,12 +376,25 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   return result;
 }
 
+/// Energy that the step to a new state has lost, beyond what the ends' work explains. Without
+/// friction dE = -T debar, with T between its values before and behind. Zero within the error that
+/// other nodes make.
+double RodModel::energy_lost(double ebar, double energy, double tension) const {
+  const double step = accepted_.back().ebar - ebar;
+  if (tension_ == 0 || parameters_.friction > 0 || std::abs(step) < same_ebar) return 0;
+  const double least = energy_ + std::min(tension_ * step, tension * step);
+  const double lost = least - energy;
+  return lost > 0.05 * std::abs(tension_ * step) + snap_energy * energy_ ? lost : 0;
+}
+
 StepRow RodModel::accept(const NewtonResult& result, double ebar) {
+  const GripForces forces = grip_forces(rod_, result.gradient);
+  const double snapped = energy_lost(ebar, result.energy, forces.tension());
   if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
   accepted_.push_back({ebar, rod_.arc_length(), result.x});
   if (accepted_.size() > kept) accepted_.erase(accepted_.begin());
 
-  const GripForces forces = grip_forces(rod_, result.gradient);
+  energy_ = result.energy;
   const double tightening = tension_ > 0 ? std::clamp(forces.tension() / tension_, 0.5, 2.0) : 1.0;
   tension_ = forces.tension();
   force_scale_ = std::max(std::abs(tension_), 0.1 * loose_tension(rod_, ebar));
@@ -377,6 +420,8 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     row.dissipated = dissipated_;
   }
   row.tension = tension_;
+  row.snapped = snapped;
+  row.ebar_unstretched = ebar + polyline_length(nodes_of(rod_, result.x)) - length_;
   row.residual = result.residual / force_scale_;
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {

@@ -50,16 +50,20 @@ class RodModel final : public PathModel {
   /// Accepted states and their weights in the guess for an ebar.
   using Extrapolation = std::vector<std::pair<const Accepted*, double>>;
   Extrapolation extrapolation(double ebar, size_t most) const;
+  Vector extrapolated(double ebar, size_t most) const;
+  Vector best_guess(const Vector& guess, double ebar);
   std::vector<double> next_arc(double ebar) const;
   Polyline meshed(const Polyline& start);
   void set_arc(const std::vector<double>& arc);
   std::vector<double> wished_arc(const Accepted& at) const;
   int angles() const { return parameters_.twist ? rod_.segments() : 0; }
+  int middle_node() const { return rod_.segments() / 2; }
   double end_to_end(double ebar) const { return length_ - ebar; }
   bool choose_pin(const Vector& x);
   void set_equations();
   Vector tangent(double ebar) const;
   void freeze(const Vector& x);
+  double energy_lost(double ebar, double energy, double tension) const;
   NewtonResult solve_once(const Vector& guess);
   NewtonResult solve_contact(Vector x);
 
@@ -79,12 +83,13 @@ class RodModel final : public PathModel {
     int node = -1, axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius
   };
   Pin pin_;
-  double stiffness_ = 0;            ///< of contact, where the next solve begins
-  double force_scale_;              ///< tension expected [E D^2]
-  std::vector<Accepted> accepted_;  ///< the newest few, newest last
-  double tension_ = 0;              ///< of the newest accepted state
-  double normal_force_ = 0;         ///< summed over the spots that rub there [E D^2]
-  double dissipated_ = 0;           ///< by friction so far [E D^3]
+  double stiffness_ = 0;             ///< of contact, where the next solve begins
+  double force_scale_;               ///< tension expected [E D^2]
+  std::vector<Accepted> accepted_;   ///< the newest few, newest last
+  double tension_ = 0, energy_ = 0;  ///< of the newest accepted state
+  double normal_force_ = 0;          ///< summed over the spots that rub there [E D^2]
+  double dissipated_ = 0;            ///< by friction so far [E D^3]
+  int last_iterations_ = 0;          ///< of the last solve
   std::map<std::string, double> energy_by_effect_;
   std::map<std::string, double> seconds_;  ///< of equations that were replaced
   std::chrono::steady_clock::time_point began_;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "rod1d/knots.h"
 #include "rod1d/one_thread.h"
-#include "rod1d/overhand.h"
 #include "rod1d/rod_model.h"
 
 namespace bight::rod1d {
@@ -29,11 +29,62 @@ void check(const RodParameters& parameters) {
   if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
 }
 
-Polyline start_of(const RodParameters& parameters) {
+constexpr double start_points = 10;  ///< of a start, per diameter
+/// Of a longer rod, beside its loose knot: no loop can slip over an end [D].
+constexpr double spare_tails = 45;
+constexpr int spare_segments = 340;   ///< of a longer rod
+constexpr double shortest_reach = 4;  ///< end to end, in which a rod may be tied at all [D]
+
+/// The middle part of a rod, of that undeformed length.
+Polyline cut_to(const RodState& state, double length) {
+  const double total = state.s.back(), low = 0.5 * (total - length), high = total - low;
+  const auto at = [&](double s) {
+    const size_t k = static_cast<size_t>(std::upper_bound(state.s.begin(), state.s.end() - 1, s) -
+                                         state.s.begin());
+    const double u = (s - state.s[k - 1]) / (state.s[k] - state.s[k - 1]);
+    return Vector3((1 - u) * state.nodes[k - 1] + u * state.nodes[k]);
+  };
+  Polyline line{at(low)};
+  for (size_t i = 0; i < state.s.size(); ++i)
+    if (state.s[i] > low && state.s[i] < high) line.push_back(state.nodes[i]);
+  line.push_back(at(high));
+  return line;
+}
+
+/// A start for a rod that is too short to be tied loosely: a longer one is tied and pulled, then
+/// its tails are cut.
+Polyline cut_from_longer(const RodParameters& parameters, const Knot& knot,
+                         const RodObserver& observer) {
+  const double ebar = parameters.path.waypoints.front(), loosest = std::max(knot.loosest, ebar);
+  RodParameters longer;
+  longer.length = std::max(parameters.length, loosest + spare_tails);
+  longer.poissons_ratio = parameters.poissons_ratio;
+  longer.knot = parameters.knot;
+  longer.segments = spare_segments;
+  longer.path.waypoints = {loosest, ebar};
+  longer.path.max_step = 1;
+  const int points = static_cast<int>(start_points * longer.length);
+  RodModel model(longer, knot.loose(longer.length, loosest, points));
+  PathObserver silent;
+  silent.interrupted = observer.interrupted;
+  const PathOutcome outcome = follow(longer.path, model, silent);
+  if (outcome.status != PathStatus::finished)
+    throw std::runtime_error("the knot could not be pulled to ebar " + std::to_string(ebar) +
+                             " on a longer rod: " + outcome.reason);
+  return cut_to(model.state(), parameters.length);
+}
+
+Polyline start_of(const RodParameters& parameters, const RodObserver& observer) {
   if (!parameters.start.empty()) return parameters.start;
-  return overhand_start(parameters.length,
-                        std::max(parameters.path.waypoints.front(), loosest_overhand),
-                        std::max(parameters.segments, static_cast<int>(10 * parameters.length)));
+  const Knot& knot = find_knot(parameters.knot);
+  const double first = parameters.path.waypoints.front(), length = parameters.length;
+  const int points = std::max(parameters.segments, static_cast<int>(start_points * length));
+  try {
+    return knot.loose(length, std::max(first, knot.loosest), points);
+  } catch (const std::invalid_argument&) {
+    if (length - first < shortest_reach) throw;
+  }
+  return cut_from_longer(parameters, knot, observer);
 }
 
 /// Slack that is pulled through a knot with friction before the path begins, so that friction acts
@@ -82,7 +133,15 @@ RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) 
   const OneThread one_thread;
   RodResult result;
   const auto began = std::chrono::steady_clock::now();
-  RodModel model(parameters, start_of(parameters));
+  Polyline start;
+  try {
+    start = start_of(parameters, observer);
+  } catch (const std::runtime_error& error) {
+    result.outcome.status = PathStatus::gave_up;
+    result.outcome.reason = error.what();
+    return result;
+  }
+  RodModel model(parameters, start);
   result.unknowns = model.unknowns();
   result.effects = model.effect_names();
   result.outcome = tie(model, parameters, observer);

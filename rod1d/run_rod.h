@@ -12,9 +12,10 @@ namespace bight::rod1d {
 
 /// Everything the rod fidelity needs, in units of D and E (mechanics/types.h).
 struct RodParameters {
-  double length = 42.17;        ///< L0 / D
-  double poissons_ratio = 0.5;  ///< B/C = 1 + nu
-  Polyline start;            ///< tied start: any centerline of about the right length, ends along z
+  double length = 42.17;          ///< L0 / D
+  double poissons_ratio = 0.5;    ///< B/C = 1 + nu
+  std::string knot = "overhand";  ///< to be tied: a name in knots.cpp
+  Polyline start;  ///< tied start instead: any centerline of about that length, ends along z
   bool finish_turns = true;  ///< finish end free to turn about the pulling axis
   double finish_turn = 0;    ///< turn given to a clamped finish end once the knot is tied [rad]
   bool contact = true;

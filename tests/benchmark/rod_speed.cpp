@@ -1,10 +1,11 @@
 // What the rod costs: CPU seconds, steps, iterations and factorisations of the cases that a user
-// waits for, on one thread. `rod_speed` runs all of them, `rod_speed NAME ...` those.
+// waits for, on one thread. `rod_speed` runs all of them, `rod_speed NAME ...` those,
+// `rod_speed try ...` a path of one's own.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,20 +39,22 @@ std::vector<Case> all_cases() {
        rod(312.5, 300, 225, 0, 1, 1)},
       {"tight", "L0 = 42.17 D, 338 segments, ebar 30 -> 9", rod(42.17, 338, 30, 9, 0.5, 0)},
       {"main", "L0 = 42.17 D, 338 segments, ebar 30 -> 0", rod(42.17, 338, 30, 0, 0.5, 0)},
-      {"loose", "L0 = 266.6 D, 2132 segments, ebar 200 -> 50", rod(266.6, 2132, 200, 50, 2, 0)},
-      {"long", "L0 = 2400 D, 4800 segments, ebar 800 -> 200", rod(2400, 4800, 800, 200, 20, 0)},
+      {"loose", "L0 = 266.6 D, 400 segments, ebar 200 -> 50", rod(266.6, 400, 200, 50, 2, 0)},
+      {"long", "L0 = 2400 D, 400 segments, ebar 800 -> 200", rod(2400, 400, 800, 200, 20, 0)},
   };
   for (const int segments : {300, 3000, 30000}) {
-    cases.push_back({"linear" + std::to_string(segments),
-                     "L0 = 312.5 D, ebar 100 -> 95, " + std::to_string(segments) + " segments",
-                     rod(312.5, segments, 100, 95, 1, 0)});
+    cases.push_back(
+        {"linear" + std::to_string(segments),
+         "L0 = 312.5 D, ebar 100 -> 95, " + std::to_string(segments) + " equal segments",
+         rod(312.5, segments, 100, 95, 1, 0)});
+    cases.back().parameters.follow_knot = false;
   }
   return cases;
 }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-void run(const Case& c) {
+void run(const Case& c, bool each_step) {
   std::printf("%s: %s\n", c.name.c_str(), c.what.c_str());
   const double began = cpu_seconds();
   double path_began = began;
@@ -59,10 +62,10 @@ void run(const Case& c) {
   observer.on_step = [&, first = true](const StepRow& row) mutable {
     if (first) path_began = cpu_seconds();
     first = false;
-    if (std::getenv("ROD_SPEED_STEPS"))
+    if (each_step)
       std::printf("  %9.4f  T %.6g  it %3d  cut %d  pen %.5f  pairs %d  %s\n", row.ebar,
                   row.tension * 16 / M_PI, row.newton_iterations, row.cutbacks, row.max_penetration,
-                  row.contact_pairs, row.cut_reason.c_str());
+                  row.contact_pairs, row.snapped > 0 ? "SNAP" : row.cut_reason.c_str());
   };
   const RodResult result = run_rod(c.parameters, observer);
   const double ended = cpu_seconds();
@@ -81,20 +84,28 @@ void run(const Case& c) {
   std::fflush(stdout);
 }
 
+/// try LENGTH SEGMENTS FROM TO STEP [KNOT] [uniform]: one path of one's own, step by step.
+Case own_case(const std::vector<std::string>& words) {
+  const auto number = [&](size_t i) { return std::stod(words.at(i)); };
+  Case c{"try", "a path of one's own",
+         rod(number(1), std::stoi(words.at(2)), number(3), number(4), number(5), 0)};
+  for (size_t i = 6; i < words.size(); ++i) {
+    if (words[i] == "uniform")
+      c.parameters.follow_knot = false;
+    else
+      c.parameters.knot = words[i];
+  }
+  return c;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count > 6 && std::string(arguments[1]) == "try") {
-    const auto number = [&](int i) { return std::atof(arguments[i]); };
-    Case c{"try", "",
-           rod(number(2), static_cast<int>(number(3)), number(4), number(5), number(6), 0)};
-    c.parameters.follow_knot = count < 8;
-    run(c);
+  const std::vector<std::string> words(arguments + 1, arguments + count);
+  if (!words.empty() && words[0] == "try") {
+    run(own_case(words), true);
     return 0;
   }
-  for (const Case& c : all_cases()) {
-    bool asked = count == 1;
-    for (int i = 1; i < count; ++i) asked = asked || c.name == arguments[i];
-    if (asked) run(c);
-  }
+  for (const Case& c : all_cases())
+    if (words.empty() || std::count(words.begin(), words.end(), c.name) > 0) run(c, false);
 }
