@@ -10,7 +10,7 @@ std::vector<AskedEffect> asked_effects(const Scene& scene) {
   };
   if (scene.contact) effects.push_back({"contact", "effects.contact"});
   if (scene.friction > 0)
-    effects.push_back({"friction", "effects.friction", true, true, !scene.solid});
+    effects.push_back({"friction", "effects.friction"});
   if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
   return effects;
 }

@@ -157,7 +157,8 @@ solid3d::SolidParameters solid_parameters(const Scene& scene) {
   solid.contact_stiffness = scene.contact_stiffness;
   solid.penetration = scene.solid_penetration;
   solid.sample_spacing = scene.sample_spacing;
-  solid.symmetry = scene.symmetry && scene.friction == 0;
+  solid.symmetry = scene.symmetry;
+  solid.friction = scene.friction;
   solid.path = path_from_seed(scene.path, scene.seed_ebar);
   return solid;
 }

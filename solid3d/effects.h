@@ -2,6 +2,7 @@
 
 #include "mechanics/assemble.h"
 #include "solid3d/effects/contact.h"
+#include "solid3d/effects/friction.h"
 #include "solid3d/effects/strain.h"
 #include "solid3d/run_solid.h"
 
@@ -11,8 +12,9 @@ namespace bight::solid3d {
 /// that is not asked for is not built.
 struct SolidEffects {
   EffectList list;
-  Strain* strain = nullptr;    ///< in the list
-  Contact* contact = nullptr;  ///< in the list; null without contact
+  Strain* strain = nullptr;      ///< in the list
+  Contact* contact = nullptr;    ///< in the list; null without contact
+  Friction* friction = nullptr;  ///< in the list; null without friction
 };
 
 /// `first_layer`: energy only of the rod beyond it, where the rest is its image.

@@ -25,6 +25,9 @@ constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
+/// Friction has settled when the end tension changes by less than this part of it.
+constexpr double friction_settled = 5e-4;
+constexpr int max_friction_passes = 10;
 constexpr size_t kept_states = 3;  ///< for the predictor
 
 using Clock = std::chrono::steady_clock;
@@ -75,6 +78,16 @@ class SolidPath : public PathModel {
   }
 
   NewtonResult solve(const Vector& guess, double) override {
+    NewtonResult result =
+        effects_.friction ? solve_with_friction(guess) : solve_frictionless(guess);
+    if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
+      result.status = NewtonStatus::rejected;
+      result.reason = "a strand has passed through another";
+    }
+    return result;
+  }
+
+  NewtonResult solve_frictionless(const Vector& guess) {
     NewtonResult result = newton(system_, guess, options(), observer_);
     for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
       const double overlap = effects_.contact->max_penetration();
@@ -83,14 +96,46 @@ class SolidPath : public PathModel {
           std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
       result = go_on(std::move(result));
     }
-    if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
-      result.status = NewtonStatus::rejected;
-      result.reason = "a strand has passed through another";
+    return result;
+  }
+
+  /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
+  /// end tension stays. The start is relaxed without friction: it has no history.
+  NewtonResult solve_with_friction(const Vector& guess) {
+    if (!accepted_) {
+      effects_.friction->release();
+      return solve_frictionless(guess);
     }
+    NewtonResult result;
+    result.x = newest();
+    double tension = 0;
+    for (int pass = 0; pass < max_friction_passes; ++pass) {
+      effects_.contact->refresh(result.x);
+      frozen_at_ = result.x;
+      effects_.friction->freeze(frozen_at_, newest());
+      if (pass == 0) {
+        result = newton(system_, guess, options(), observer_);
+      } else {
+        const double overlap = effects_.contact->max_penetration();
+        if (overlap > parameters_.penetration)
+          effects_.contact->law().stiffness *=
+              std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+        result = go_on(std::move(result));
+      }
+      if (!result.ok()) return result;
+      const double last = tension;
+      tension = grip_.tension(mesh_, result.gradient).finish;
+      if (pass > 0 && std::abs(tension - last) < friction_settled * std::abs(tension) &&
+          effects_.contact->max_penetration() <= parameters_.penetration)
+        return result;
+    }
+    result.status = NewtonStatus::too_many_iterations;
+    result.reason = "friction does not settle";
     return result;
   }
 
   StepRow accept(const NewtonResult& result, double ebar) override {
+    const Vector before = newest();
     // A turn of the path or a state at the same ebar gives no rate to go on with.
     if (history_.back().ebar == ebar) history_.pop_back();
     if (history_.size() > 1 &&
@@ -106,6 +151,10 @@ class SolidPath : public PathModel {
     row.energy = result.energy;
     if (symmetry_) {
       if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
+      if (effects_.friction && accepted_) {
+        whole_effects_.contact->refresh(frozen_at_);
+        whole_effects_.friction->freeze(frozen_at_, before);
+      }
       whole_assembler_->refresh(newest());
       row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);
     }
@@ -123,6 +172,16 @@ class SolidPath : public PathModel {
       row.max_penetration = whole().contact->max_penetration();
       row.contact_pairs = whole().contact->stencils();
     }
+    if (effects_.friction) {
+      // The potential of a step counts what sliding has cost; energy is what is still there.
+      Friction& friction = *whole().friction;
+      row.energy += friction.stored(newest()) -
+                    (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
+      friction.accept(newest());
+      if (symmetry_) effects_.friction->accept(newest());
+      row.dissipated = friction.dissipated();
+    }
+    accepted_ = true;
     row.end_turn = grip_.turn(mesh_, newest());
     row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     return row;
@@ -198,7 +257,7 @@ class SolidPath : public PathModel {
     if (radius(layer).norm() < off_axis)
       for (int k = 0; k < mesh.layers(); ++k)
         if (radius(k).norm() > radius(layer).norm()) layer = k;
-    if (radius(layer).norm() < off_axis) return grip;
+    if (radius(layer).norm() < off_axis || parameters.friction > 0) return grip;
     const int at = 3 * mesh.node(layer, mesh.section.centre[0]);
     grip.pinned = {at + 2};
     if (!parameters.finish_turns) return grip;
@@ -292,6 +351,8 @@ class SolidPath : public PathModel {
   int determinant_ = 0;
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;
+  Vector frozen_at_;              ///< where friction's spots were taken from
+  bool accepted_ = false;         ///< a first equilibrium
   std::vector<Station> history_;  ///< the last accepted states, newest last
   Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;

@@ -17,6 +17,7 @@ struct SolidParameters {
   bool finish_turns = true;     ///< finish end free to turn about the pulling axis
   bool symmetry = true;         ///< of a start with a two-fold axis, simulate one half
   bool contact = true;
+  double friction = 0;             ///< Coulomb coefficient; 0: no friction effect
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]

@@ -16,6 +16,8 @@ constexpr double search_slack = 0.05;
 constexpr double deepest_overlap = 0.08;
 /// Samples this near to touching have their place in the pattern of the Hessian [D].
 constexpr double pattern_margin = 0.03;
+/// Of a patch, more than any sample spacing makes.
+constexpr int most_samples = 4096;
 /// Normals of facing surfaces must oppose each other at least this much.
 constexpr double opposing = -0.1;
 
@@ -32,9 +34,27 @@ std::array<int, 9> patch_coordinates(const ContactSurface& surface, int around, 
 Contact::Contact(const Mesh& mesh, ContactLaw law, Options options)
     : surface_(mesh), law_(law), options_(options) {}
 
+PatchWeights Contact::own_weights(const Sample& sample) const {
+  return surface_.weights(surface_.around(sample.patch) + sample.local.x(),
+                          surface_.along(sample.patch) + sample.local.y());
+}
+
+std::array<int, 54> Contact::stencil(const Sample& sample) const {
+  const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
+  const auto own =
+      patch_coordinates(surface_, surface_.around(sample.patch), surface_.along(sample.patch));
+  const auto other = patch_coordinates(surface_, facing.around, facing.along);
+  std::array<int, 54> all;
+  for (int a = 0; a < 9; ++a)
+    for (int c = 0; c < 3; ++c) {
+      all[3 * a + c] = own[a] + c;
+      all[27 + 3 * a + c] = other[a] + c;
+    }
+  return all;
+}
+
 Vector3 Contact::position(const Vector& x, const Sample& sample) const {
-  const PatchWeights w = surface_.weights(surface_.around(sample.patch) + sample.local.x(),
-                                          surface_.along(sample.patch) + sample.local.y());
+  const PatchWeights w = own_weights(sample);
   return surface_.evaluate(x, w).y;
 }
 
@@ -58,6 +78,7 @@ void Contact::find_samples(const Vector& x) {
       for (int i = 0; i < nu; ++i) {
         Sample sample;
         sample.patch = patch;
+        sample.id = patch * most_samples + j * nu + i;
         sample.local = {(i + 0.5) / nu - 0.5, (j + 0.5) / nv - 0.5};
         sample.weight = 0.5 * surface_.area(patch) / (nu * nv);
         // The patches of the first layer reach halfway before it.
@@ -79,8 +100,7 @@ void Contact::find_samples(const Vector& x) {
 }
 
 void Contact::project(const Vector& x, Sample& sample) const {
-  const PatchWeights w = surface_.weights(surface_.around(sample.patch) + sample.local.x(),
-                                          surface_.along(sample.patch) + sample.local.y());
+  const PatchWeights w = own_weights(sample);
   const SurfacePoint here = surface_.evaluate(x, w);
   const auto uv = surface_.project(x, here.y, sample.facing);
   sample.faces = false;
@@ -116,25 +136,14 @@ void Contact::refresh(const Vector& x) {
   for (int i = 0; i < count; ++i) {
     const Sample& sample = samples_[i];
     if (!sample.faces || !law_.touches(sample.gap)) continue;
-    const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
-    const auto own =
-        patch_coordinates(surface_, surface_.around(sample.patch), surface_.along(sample.patch));
-    const auto other = patch_coordinates(surface_, facing.around, facing.along);
-    std::array<int, 54> all;
-    for (int a = 0; a < 9; ++a)
-      for (int c = 0; c < 3; ++c) {
-        all[3 * a + c] = own[a] + c;
-        all[27 + 3 * a + c] = other[a] + c;
-      }
     touching_.push_back(i);
-    coordinates_.push_back(all);
+    coordinates_.push_back(stencil(sample));
   }
 }
 
 void Contact::element(const Vector& x, int stencil, Order order, ElementSlot& slot) const {
   const Sample& sample = samples_[touching_[stencil]];
-  const PatchWeights own = surface_.weights(surface_.around(sample.patch) + sample.local.x(),
-                                            surface_.along(sample.patch) + sample.local.y());
+  const PatchWeights own = own_weights(sample);
   const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
   const SurfacePoint p = surface_.evaluate(x, facing);
   const double distance = p.normal.dot(surface_.evaluate(x, own).y - p.y);
@@ -216,8 +225,7 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
   double longest = 1;
   for (const Sample& sample : samples_) {
     if (!sample.faces) continue;
-    const PatchWeights own = surface_.weights(surface_.around(sample.patch) + sample.local.x(),
-                                              surface_.along(sample.patch) + sample.local.y());
+    const PatchWeights own = own_weights(sample);
     const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
     const Vector3 normal = surface_.evaluate(x, facing).normal;
     Vector3 closing = Vector3::Zero();

@@ -47,6 +47,7 @@ class Contact : public Effect {
 
   struct Sample {
     int patch = 0;
+    int id = 0;          ///< the same for the same place in every search
     Vector2 local;       ///< place in the patch, in [-1/2, 1/2]^2
     double weight = 0;   ///< half its reference area [D^2]
     Vector2 facing;      ///< its projection (u, v) on the facing strand
@@ -54,6 +55,10 @@ class Contact : public Effect {
     bool faces = false;  ///< a projection exists and the normals oppose each other
   };
   const std::vector<Sample>& samples() const { return samples_; }
+
+  PatchWeights own_weights(const Sample& sample) const;
+  /// Coordinates of the 9 nodes around a sample and the 9 around its facing point.
+  std::array<int, 54> stencil(const Sample& sample) const;
 
  private:
   void find_samples(const Vector& x);

@@ -30,13 +30,14 @@ const rod1d::RodState& seed() {
 }
 
 solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr,
-                             bool symmetry = true) {
+                             bool symmetry = true, double friction = 0) {
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
   solid3d::SolidParameters parameters;
   parameters.expected_tension = seed().tension;
   parameters.path.waypoints = {seed_ebar, to};
   parameters.path.record = {seed_ebar, to};
   parameters.symmetry = symmetry;
+  parameters.friction = friction;
   solid3d::SolidObserver observer;
   if (states) observer.on_record = [=](const auto& state) { states->push_back(state); };
   return solid3d::run_solid(mesh, sweep(mesh, seed()), seed_ebar, parameters, observer);
@@ -204,4 +205,18 @@ TEST_CASE("half of a symmetric knot and its image are the whole knot") {
     for (const char* effect : {"strain", "contact"})
       CHECK(half_states[i].energy_by_effect.at(effect) ==
             Approx(whole_states[i].energy_by_effect.at(effect)).epsilon(1e-3));
+}
+
+TEST_CASE("friction of the solid holds the knot, and work goes into energy and dissipation") {
+  const auto smooth = tighten(19), rough = tighten(19, nullptr, true, 0.1);
+  REQUIRE(rough.outcome.status == PathStatus::finished);
+  REQUIRE(rough.symmetric);
+  const StepRow &last = rough.steps.back(), &before = rough.steps[rough.steps.size() - 2];
+  CHECK(last.tension > 1.2 * smooth.steps.back().tension);
+  CHECK(last.reaction_mismatch < 1e-6);
+  CHECK(last.residual < 1e-6);
+  CHECK(last.dissipated > before.dissipated);
+  const double work = 0.5 * (last.tension + before.tension) * (before.ebar - last.ebar);
+  CHECK(last.energy - before.energy + last.dissipated - before.dissipated ==
+        Approx(work).epsilon(0.03));
 }

@@ -97,7 +97,7 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene_with("\"350 mm\"", "1e300"), {":2", "rod.length", "too long"}},
       {small_scene_with("8.3 mm", "1e-320 m"), {"rod.length", "too long"}},
       {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
-      {small_scene + "[effects]\nfriction = 0.3\n", {":9", "effects.friction", "solid", "contact"}},
+      {small_scene + "[effects]\nfriction = -0.3\n", {":9", "effects.friction", "[0, 5]"}},
       {small_scene + "[ends]\nturn = \"90 degree\"\n", {":9", "ends.turn", "clamped"}},
       {small_scene + "[effects]\ngravity = true\n", {":9", "effects.gravity", "no such effect"}},
       {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},

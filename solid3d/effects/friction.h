@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "mechanics/friction_law.h"
+#include "solid3d/effects/contact.h"
+
+namespace bight::solid3d {
+
+/// Relative motion of two surfaces at which sticking gives way [D].
+constexpr double largest_elastic_slip = 0.002;
+
+/// Coulomb friction with stick and slip of the surface, at the samples of contact. In one step a
+/// sample's slip against the material point that faces it is
+///
+///   s = m + E^T (x - y)|now - E^T (x - y)|start of the step,
+///
+/// m its elastic slip at the start and E two unit tangents that the surface carries along. Its
+/// energy is that of the friction law at |s|. Which points face each other, their normal force and
+/// E(now) are frozen during a solve and taken anew from its solution, until the end tension stays:
+/// the tangent is symmetric, and positive (Alart and Curnier 1991 iterate the same way).
+class Friction final : public Effect {
+ public:
+  Friction(const Contact& contact, double coefficient)
+      : contact_(contact), coefficient_(coefficient) {}
+
+  std::string_view name() const override { return "friction"; }
+  int stencils() const override { return static_cast<int>(spots_.size()); }
+  std::span<const int> coordinates(int i) const override {
+    return spots_[static_cast<size_t>(i)].coordinates;
+  }
+  void element(const Vector& x, int i, Order order, ElementSlot& slot) const override;
+
+  /// Freezes what the contact samples say of x, to which contact has been refreshed last; slips
+  /// count from `start`, the newest accepted state. To be called between solves.
+  void freeze(const Vector& x, const Vector& start);
+  /// No friction until the next freeze().
+  void release() { spots_.clear(); }
+
+  /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
+  void accept(const Vector& x);
+
+  double stored(const Vector& x) const;              ///< elastic energy of sticking [E D^3]
+  double dissipated() const { return dissipated_; }  ///< by all accepted steps [E D^3]
+  double sliding_share(const Vector& x) const;       ///< of the normal force, where spots slide
+
+ private:
+  struct Spot {
+    int sample;  ///< its id
+    double limit;
+    PatchWeights own, facing;
+    std::array<int, 54> coordinates;
+    Eigen::Matrix<double, 3, 2> tangents;
+    Vector2 before;  ///< m - E^T (x - y) at the start of the step
+  };
+  FrictionLaw law(const Spot& spot) const {
+    return {spot.limit / largest_elastic_slip, spot.limit};
+  }
+  Vector3 apart(const Vector& x, const Spot& spot) const;
+  Eigen::Matrix<double, 3, 2> tangents(const Vector& x, const PatchWeights& own) const;
+  Vector2 slip(const Vector& x, const Spot& spot) const;
+
+  const Contact& contact_;
+  double coefficient_, dissipated_ = 0;
+  std::vector<Spot> spots_;
+  std::map<int, Vector2> memory_;  ///< elastic slip by sample, in its tangents
+};
+
+}  // namespace bight::solid3d
