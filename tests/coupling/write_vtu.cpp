@@ -28,6 +28,7 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   state.jacobian.assign(mesh.cells.size(), 8.0);
   state.contact_pressure.assign(mesh.nodes(), 0.01);
   state.pressure.assign(mesh.cells.size(), -0.02);
+  state.von_mises.assign(mesh.cells.size(), 0.03);
   state.gap.assign(mesh.nodes(), 0.5);
   write_solid_vtu(folder / "state.vtu", mesh, state, scales);
 
@@ -48,7 +49,13 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   CHECK(grid->GetPointData()->GetArray("contact_pressure")->GetTuple1(0) == Approx(1.25e4));
   CHECK(grid->GetCellData()->GetArray("pressure")->GetTuple1(0) == Approx(-2.5e4));
   CHECK(grid->GetPointData()->GetArray("gap")->GetTuple1(0) == Approx(0.00415));
-  CHECK(grid->GetCellData()->GetArray("von_mises") == nullptr);  // not filled in
+  CHECK(grid->GetCellData()->GetArray("von_mises")->GetTuple1(0) == Approx(3.75e4));
+
+  state.von_mises.clear();
+  write_solid_vtu(folder / "state.vtu", mesh, state, scales);
+  reader->Modified();
+  reader->Update();
+  CHECK(reader->GetOutput()->GetCellData()->GetArray("von_mises") == nullptr);  // not filled in
 }
 
 TEST_CASE("the rod reads back as one line with orthonormal frames") {

@@ -88,6 +88,27 @@ TEST_CASE("contact is sampled on the whole surface of both strands, half each") 
   CHECK(patches > 20);
 }
 
+TEST_CASE("the far side of a strand is no overlap") {
+  const Mesh mesh = test::straight_mesh(12, 6.0, 1.0);
+  SolidEffects effects = make_effects(mesh, {}, 3 * mesh.nodes());
+  // The rod broken in two halves, side by side, one within the other by 0.1 and by 0.4 D.
+  const int half = mesh.layers() / 2;
+  for (const double overlap : {0.1, 0.4}) {
+    Vector x = test::reference_state(mesh, 0);
+    for (int n = mesh.node(half, 0); n < mesh.nodes(); ++n)
+      x.segment<3>(3 * n) += Vector3(1 - overlap, 0, -mesh.s[half]);
+    effects.contact->refresh(x);
+    const auto off_the_break = [&](double along) { return std::abs(along - half) > 2; };
+    double least = 1;
+    for (const auto& sample : effects.contact->samples())
+      if (sample.faces && off_the_break(effects.contact->surface().along(sample.patch)) &&
+          off_the_break(sample.facing.y()))
+        least = std::min(least, sample.gap);
+    CHECK(least >= -0.25);
+    if (overlap < 0.25) CHECK(least == Approx(-overlap).margin(0.01));
+  }
+}
+
 TEST_CASE("a step may close the gap and overlap a little, no more") {
   Wound rod;
   const Vector x = rod.state(1.06);

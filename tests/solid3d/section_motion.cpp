@@ -20,6 +20,16 @@ Vector turned(const Mesh& mesh, double angle) {
 
 }  // namespace
 
+TEST_CASE("sections of a turned rod lie where they were turned to") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  const Matrix3 R = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  const auto places = section_places(mesh, turned(mesh, 0.7));
+  for (int k = 0; k < mesh.layers(); ++k) {
+    CHECK((places[k].rotation - R).norm() < 1e-12);
+    CHECK((places[k].centre - R * Vector3(0, 0, mesh.s[k])).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("a linear step of rotation is taken as a rotation, sections keep their size") {
   const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
   Vector x = test::reference_state(mesh, 2), dx = Vector::Zero(x.size());

@@ -13,9 +13,10 @@ using namespace bight::solid3d;
 
 namespace {
 
-/// One turn and a bit of a helix about z, whose middle lies on a two-fold axis.
+/// Two turns and a bit of a helix about z, whose middle lies on a two-fold axis and touches both
+/// its neighbours.
 struct Helix {
-  Mesh mesh = test::straight_mesh(12, 13.3, 1.0);
+  Mesh mesh = test::straight_mesh(12, 26.6, 1.0);
   std::vector<Vector3> start;
 
   Helix() {
@@ -70,8 +71,8 @@ TEST_CASE("one half of a symmetric state carries half of every energy") {
   const TwoFold symmetry = *TwoFold::find(helix.mesh, helix.start);
   SolidParameters parameters;
   parameters.bulk_to_shear = 20;
-  // Odd and even numbers of samples a patch: with and without samples on the symmetry plane.
-  parameters.sample_spacing = GENERATE(0.11, 0.15);
+  // Three samples a patch along the rod, and two: with and without samples on the symmetry plane.
+  parameters.sample_spacing = GENERATE(0.09, 0.13);
   const int internal_begin = 3 * helix.mesh.nodes();
   const Vector x = helix.in_frame(symmetry, 2 * static_cast<int>(helix.mesh.cells.size()));
   const auto whole = make_effects(helix.mesh, parameters, internal_begin);
