@@ -100,12 +100,9 @@ class SolidPath : public PathModel {
   }
 
   /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
-  /// end tension stays. The start is relaxed without friction: it has no history.
+  /// end tension stays. The start is relaxed with friction, too: the shape of a rod with friction
+  /// is held by it.
   NewtonResult solve_with_friction(const Vector& guess) {
-    if (!accepted_) {
-      effects_.friction->release();
-      return solve_frictionless(guess);
-    }
     NewtonResult result;
     result.x = newest();
     double tension = 0;
@@ -151,7 +148,7 @@ class SolidPath : public PathModel {
     row.energy = result.energy;
     if (symmetry_) {
       if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
-      if (effects_.friction && accepted_) {
+      if (effects_.friction) {
         whole_effects_.contact->refresh(frozen_at_);
         whole_effects_.friction->freeze(frozen_at_, before);
       }
@@ -181,7 +178,6 @@ class SolidPath : public PathModel {
       if (symmetry_) effects_.friction->accept(newest());
       row.dissipated = friction.dissipated();
     }
-    accepted_ = true;
     row.end_turn = grip_.turn(mesh_, newest());
     row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     return row;
@@ -352,7 +348,6 @@ class SolidPath : public PathModel {
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;
   Vector frozen_at_;              ///< where friction's spots were taken from
-  bool accepted_ = false;         ///< a first equilibrium
   std::vector<Station> history_;  ///< the last accepted states, newest last
   Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;

@@ -36,9 +36,6 @@ class Friction final : public Effect {
   /// Freezes what the contact samples say of x, to which contact has been refreshed last; slips
   /// count from `start`, the newest accepted state. To be called between solves.
   void freeze(const Vector& x, const Vector& start);
-  /// No friction until the next freeze().
-  void release() { spots_.clear(); }
-
   /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
   void accept(const Vector& x);
 
