@@ -148,3 +148,14 @@ TEST_CASE("a path is parted where it first comes by the seed") {
   CHECK(path_from_seed(path, 30).waypoints == std::vector<double>{30, 5, 25});
   CHECK(path_from_seed(path, 5).waypoints == std::vector<double>{5, 25});
 }
+
+TEST_CASE("every case that comes along is a valid scene without warnings") {
+  int cases = 0;
+  for (const auto& file : std::filesystem::directory_iterator(BIGHT_ROOT "/cases")) {
+    if (file.path().extension() != ".toml") continue;
+    INFO(file.path());
+    CHECK(read_scene(file.path(), {}).warnings.empty());
+    ++cases;
+  }
+  CHECK(cases >= 2);
+}
