@@ -2,7 +2,12 @@
 
 #include <cmath>
 
+#include "mechanics/effect.h"
+
 namespace bight {
+
+/// Relative motion of two surfaces at which sticking gives way [D].
+constexpr double largest_elastic_slip = 0.002;
 
 /// Coulomb friction with elastic stick, as a convex incremental potential of the slip s >= 0 since
 /// the sample last slid, at a normal force N that is frozen during a solve:
@@ -14,6 +19,9 @@ namespace bight {
 struct FrictionLaw {
   double stick_stiffness = 1;  ///< k: force per slip
   double limit = 0;            ///< mu N: largest tangential force
+
+  /// The law at a largest force mu N, with elastic slip up to largest_elastic_slip.
+  static FrictionLaw with_limit(double limit) { return {limit / largest_elastic_slip, limit}; }
 
   double elastic_slip() const { return limit / stick_stiffness; }
   bool slides(double s) const { return s > elastic_slip(); }
@@ -31,5 +39,21 @@ struct FrictionLaw {
   /// Work lost when a sample has slid to s: mu N (s - c).
   double dissipated(double s) const { return slides(s) ? limit * (s - elastic_slip()) : 0.0; }
 };
+
+/// Friction at one place as a function of its slip s, two components in the tangent plane [D]:
+///
+///   W = law(|s|)   [E D^3]
+inline Element<2> friction_element(const Vector2& s, const FrictionLaw& law) {
+  Element<2> out;
+  const double size = s.norm(), over = law.slope_over_slip(size);
+  out.energy = law.energy(size);
+  out.gradient = over * s;
+  out.hessian = over * Eigen::Matrix2d::Identity();
+  if (size > 0) {
+    const Vector2 d = s / size;
+    out.hessian += (law.curvature(size) - over) * d * d.transpose();
+  }
+  return out;
+}
 
 }  // namespace bight

@@ -189,6 +189,5 @@ Vector SparseCholesky::solve(const Vector& right_hand_side) const {
 
 std::size_t SparseCholesky::factor_entries() const { return package_->entries; }
 double SparseCholesky::factor_flops() const { return package_->flops; }
-std::size_t SparseCholesky::peak_bytes() const { return package_->common.memory_usage; }
 
 }  // namespace bight

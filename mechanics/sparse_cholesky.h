@@ -43,7 +43,6 @@ class SparseCholesky {
 
   std::size_t factor_entries() const;  ///< non-zeros of L
   double factor_flops() const;         ///< floating point operations of one factorisation
-  std::size_t peak_bytes() const;      ///< largest memory held by the package so far
 
  private:
   struct Package;

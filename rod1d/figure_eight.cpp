@@ -2,9 +2,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 
+#include "rod1d/loose_start.h"
 #include "rod1d/polyline.h"
 
 namespace bight::rod1d {
@@ -64,31 +63,10 @@ Polyline shape(double R) {
   return smoothed(resampled(line, segments), corner_width);
 }
 
-double shortening(const Polyline& line) {
-  return polyline_length(line) - (line.back() - line.front()).norm();
-}
-
 }  // namespace
 
 Polyline figure_eight_start(double length, double ebar, int segments) {
-  double low = 3.1, high = 0.5 * ebar;
-  const auto refuse = [&](const char* why) {
-    std::ostringstream text;
-    text << "a rod of length " << length << " D cannot be tied into a loose figure-eight knot at "
-         << "ebar " << ebar << ": " << why;
-    throw std::invalid_argument(text.str());
-  };
-  if (!(ebar >= loosest_figure_eight)) refuse("the loops would be too small");
-  for (int i = 0; i < 60; ++i) {
-    const double R = 0.5 * (low + high);
-    (shortening(shape(R)) < ebar ? low : high) = R;
-  }
-  Polyline line = shape(low);
-  const double tail = 0.5 * (length - polyline_length(line));
-  if (!(tail >= 0)) refuse("nothing is left for the tails");
-  line.front().z() -= tail;
-  line.back().z() += tail;
-  return resampled(line, segments);
+  return loose_start({"figure-eight", loosest_figure_eight, 3.1, shape}, length, ebar, segments);
 }
 
 }  // namespace bight::rod1d

@@ -323,7 +323,7 @@ NewtonResult RodModel::solve_contact(Vector x) {
       stiffness *= std::clamp(overlap / aimed, 0.3, 4.0);
   }
   if (result.ok() && rubs_ && tension < 0) {
-    result.status = NewtonStatus::stalled;
+    result.status = NewtonStatus::rejected;
     result.reason = "friction keeps the knot shut: the ends would have to push";
   }
   result.iterations = iterations, result.factorisations = factorisations;
@@ -370,7 +370,7 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
     result.iterations += iterations, result.factorisations += factorisations;
   }
   if (result.ok() && knot_determinant(nodes_of(rod_, result.x)) != determinant_) {
-    result.status = NewtonStatus::stalled;
+    result.status = NewtonStatus::rejected;
     result.reason = "a strand has passed through another";
   }
   return result;

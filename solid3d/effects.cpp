@@ -32,8 +32,8 @@ SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int intern
       add<Strain>(effects.list, true, mesh, internal_begin, material, bulk_modulus, first_layer);
   effects.contact = add<Contact>(effects.list, p.contact, mesh,
                                  ContactLaw{p.contact_stiffness, contact_onset}, contact);
-  effects.friction =
-      add<Friction>(effects.list, p.contact && p.friction > 0, *effects.contact, p.friction);
+  if (effects.contact)
+    effects.friction = add<Friction>(effects.list, p.friction > 0, *effects.contact, p.friction);
   return effects;
 }
 

@@ -90,10 +90,7 @@ class SolidPath : public PathModel {
   NewtonResult solve_frictionless(const Vector& guess) {
     NewtonResult result = newton(system_, guess, options(), observer_);
     for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
-      const double overlap = effects_.contact->max_penetration();
-      if (overlap <= parameters_.penetration) break;
-      effects_.contact->law().stiffness *=
-          std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+      if (!stiffen_contact()) break;
       result = go_on(std::move(result));
     }
     return result;
@@ -113,10 +110,7 @@ class SolidPath : public PathModel {
       if (pass == 0) {
         result = newton(system_, guess, options(), observer_);
       } else {
-        const double overlap = effects_.contact->max_penetration();
-        if (overlap > parameters_.penetration)
-          effects_.contact->law().stiffness *=
-              std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+        stiffen_contact();
         result = go_on(std::move(result));
       }
       if (!result.ok()) return result;
@@ -193,6 +187,7 @@ class SolidPath : public PathModel {
     s.ebar = ebar;
     s.tension = tension_;
     s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
+    if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
     return s;
   }
 
@@ -282,6 +277,15 @@ class SolidPath : public PathModel {
     options.shift_decay = shift_decay;
     options.bound.first_rise = energy_rise * tension_;
     return options;
+  }
+
+  /// Where strands overlap more than they may; false where they do not.
+  bool stiffen_contact() {
+    const double overlap = effects_.contact->max_penetration();
+    if (overlap <= parameters_.penetration) return false;
+    effects_.contact->law().stiffness *=
+        std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+    return true;
   }
 
   /// Solves on from a solution after something has changed; counts on, too.

@@ -5,22 +5,8 @@
 
 namespace bight::rod1d {
 
-Element<2> friction_element(const Vector2& s, const FrictionLaw& law) {
-  Element<2> out;
-  const double size = s.norm(), over = law.slope_over_slip(size);
-  out.energy = law.energy(size);
-  out.gradient = over * s;
-  out.hessian = over * Eigen::Matrix2d::Identity();
-  if (size > 0) {
-    const Vector2 d = s / size;
-    out.hessian += (law.curvature(size) - over) * d * d.transpose();
-  }
-  return out;
-}
-
 FrictionLaw Friction::law(const FrictionSpot& spot) const {
-  const double limit = coefficient_ * spot.at.force;
-  return {limit / largest_elastic_slip, limit};
+  return FrictionLaw::with_limit(coefficient_ * spot.at.force);
 }
 
 Friction::Slip Friction::slip(const FrictionSpot& spot, const Coordinates& x) {

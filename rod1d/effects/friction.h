@@ -5,14 +5,6 @@
 
 namespace bight::rod1d {
 
-/// Relative motion of two surfaces at which sticking gives way [D].
-constexpr double largest_elastic_slip = 0.002;
-
-/// Friction at one spot as a function of its slip s (two components):
-///
-///   W = law(|s|)   [E D^3]
-Element<2> friction_element(const Vector2& s, const FrictionLaw& law);
-
 /// Coulomb friction with stick and slip at the tube's surface. Normal forces, normals and the pairs
 /// of points that touch are frozen with the spots: W is the incremental potential of one step,
 /// convex in the slip. Its forces load bending (a moment about the centerline, of the lever D/2)

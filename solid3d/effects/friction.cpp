@@ -40,10 +40,8 @@ void Friction::freeze(const Vector& x, const Vector& start) {
 
 void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) const {
   const Spot& spot = spots_[static_cast<size_t>(i)];
-  const FrictionLaw law = this->law(spot);
-  const Vector2 s = slip(x, spot);
-  const double size = s.norm(), over = law.slope_over_slip(size);
-  slot.energy = law.energy(size);
+  const Element<2> at = friction_element(slip(x, spot), law(spot));
+  slot.energy = at.energy;
   if (order == Order::energy) return;
 
   Eigen::Matrix<double, 54, 2> ds;  // of the slip by the 18 nodes
@@ -53,11 +51,9 @@ void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) c
       ds.block<3, 2>(3 * a, 0) = spot.own.u[k] * spot.own.v[j] * spot.tangents;
       ds.block<3, 2>(27 + 3 * a, 0) = -spot.facing.u[k] * spot.facing.v[j] * spot.tangents;
     }
-  Eigen::Matrix<double, 54, 1>::Map(slot.gradient) = ds * (over * s);
+  Eigen::Matrix<double, 54, 1>::Map(slot.gradient) = ds * at.gradient;
   if (order == Order::gradient) return;
-  Eigen::Matrix2d core = over * Eigen::Matrix2d::Identity();
-  if (size > 0) core += (law.curvature(size) - over) / (size * size) * s * s.transpose();
-  const Eigen::Matrix<double, 54, 2> dsc = ds * core;
+  const Eigen::Matrix<double, 54, 2> dsc = ds * at.hessian;
   Eigen::Matrix<double, 54, 54>::Map(slot.hessian).noalias() = dsc * ds.transpose();
 }
 

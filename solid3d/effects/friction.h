@@ -9,9 +9,6 @@
 
 namespace bight::solid3d {
 
-/// Relative motion of two surfaces at which sticking gives way [D].
-constexpr double largest_elastic_slip = 0.002;
-
 /// Coulomb friction with stick and slip of the surface, at the samples of contact. In one step a
 /// sample's slip against the material point that faces it is
 ///
@@ -52,9 +49,7 @@ class Friction final : public Effect {
     Eigen::Matrix<double, 3, 2> tangents;
     Vector2 before;  ///< m - E^T (x - y) at the start of the step
   };
-  FrictionLaw law(const Spot& spot) const {
-    return {spot.limit / largest_elastic_slip, spot.limit};
-  }
+  FrictionLaw law(const Spot& spot) const { return FrictionLaw::with_limit(spot.limit); }
   Vector3 apart(const Vector& x, const Spot& spot) const;
   Eigen::Matrix<double, 3, 2> tangents(const Vector& x, const PatchWeights& own) const;
   Vector2 slip(const Vector& x, const Spot& spot) const;

@@ -211,7 +211,8 @@ TEST_CASE("half of a symmetric knot and its image are the whole knot") {
 }
 
 TEST_CASE("friction of the solid holds the knot, and work goes into energy and dissipation") {
-  const auto smooth = tighten(19), rough = tighten(19, nullptr, true, 0.1);
+  std::vector<solid3d::SolidState> states;
+  const auto smooth = tighten(19), rough = tighten(19, &states, true, 0.1);
   REQUIRE(rough.outcome.status == PathStatus::finished);
   REQUIRE(rough.symmetric);
   const StepRow &last = rough.steps.back(), &before = rough.steps[rough.steps.size() - 2];
@@ -219,6 +220,10 @@ TEST_CASE("friction of the solid holds the knot, and work goes into energy and d
   CHECK(last.reaction_mismatch < 1e-6);
   CHECK(last.residual < 1e-6);
   CHECK(last.dissipated > before.dissipated);
+  // What sliding has cost is in no effect's energy.
+  double stored = 0;
+  for (const auto& [effect, energy] : states.back().energy_by_effect) stored += energy;
+  CHECK(stored == Approx(last.energy).epsilon(1e-9));
   const double work = 0.5 * (last.tension + before.tension) * (before.ebar - last.ebar);
   CHECK(last.energy - before.energy + last.dissipated - before.dissipated ==
         Approx(work).epsilon(0.03));

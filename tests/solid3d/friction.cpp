@@ -120,3 +120,13 @@ TEST_CASE("a step that only moves and turns the whole rod makes no friction") {
   REQUIRE(friction.stencils() > 0);
   CHECK(friction.stored(moved) < 1e-12);
 }
+
+TEST_CASE("without contact there is no friction to be built") {
+  SolidParameters parameters;
+  parameters.contact = false;
+  parameters.friction = 0.3;
+  const Mesh mesh = test::straight_mesh(12, 1.0, 1.0);
+  const SolidEffects effects = make_effects(mesh, parameters, 3 * mesh.nodes());
+  CHECK(effects.list.size() == 1);
+  CHECK(effects.friction == nullptr);
+}
