@@ -107,9 +107,6 @@ class Check {
   }
 
   void effects() {
-    if (scene_.follow_knot && (scene_.friction > 0 || scene_.twist))
-      refuse("rod1d.follow_knot",
-             "friction and twist belong to material points, which nodes must not leave");
     bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {

@@ -85,8 +85,10 @@ const std::vector<Key>& all_keys() {
 
       {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter, even, at least 60, at most 400 if they follow the knot",
        "Segments of the centerline"},
-      {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without friction and twist, else false",
+      {"rod1d.follow_knot", boolean, "", {}, {}, "true", "",
        "Nodes follow the knot along the rod, densest where strands are near each other"},
+      {"rod1d.symmetry", boolean, "", {}, {}, "true", "",
+       "Of a knot with a two-fold axis, simulate one half; the other is its image"},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
        "Largest overlap of strands aimed at, in D"},
 
@@ -103,7 +105,7 @@ const std::vector<Key>& all_keys() {
       {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
        "Largest overlap allowed, in D; the penalty is stiffened until it is met"},
       {"solid3d.symmetry", boolean, "", {}, {}, "true", "",
-       "Of a frictionless knot with a two-fold axis, simulate one half; the other is its image"},
+       "Of a knot with a two-fold axis, simulate one half; the other is its image"},
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
        "Distance of contact samples on the surface, in D"},
   };

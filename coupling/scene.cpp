@@ -42,8 +42,6 @@ void derive_defaults(Values& values) {
   derive(values, "solid3d.seed_ebar", waypoints.front());
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
-  derive(values, "rod1d.follow_knot",
-         values.number("effects.friction") == 0 && !values.get<bool>("effects.twist"));
   const double most = values.get<bool>("rod1d.follow_knot") ? 400 : 1e5;
   derive(values, "rod1d.segments", std::clamp(2 * std::round(4 * slenderness), 60.0, most));
 }
@@ -103,6 +101,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.contact_stiffness = values.number("solid3d.contact_stiffness");
   scene.solid_penetration = values.number("solid3d.penetration");
   scene.sample_spacing = values.number("solid3d.sample_spacing");
+  scene.rod_symmetry = values.get<bool>("rod1d.symmetry");
   scene.symmetry = values.get<bool>("solid3d.symmetry");
   scene.text = values.toml();
   check_scene(scene, values, problems);
@@ -141,6 +140,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.friction = scene.friction;
   rod.segments = scene.segments;
   rod.follow_knot = scene.follow_knot;
+  rod.symmetry = scene.rod_symmetry;
   rod.penetration = scene.rod_penetration;
   rod.path = scene.path;
   if (!scene.rod) rod.path = path_to_seed(scene.path, scene.seed_ebar);

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "mechanics/newton_direction.h"
+
 namespace bight {
 
 namespace {
@@ -20,6 +22,8 @@ class Timed {
   Clock::time_point begin_ = Clock::now();
 };
 
+}  // namespace
+
 double evaluate(System& system, const Vector& x, Order order, Vector& gradient) {
   {
     Timed timed(system, "pairs");
@@ -29,12 +33,8 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient) 
   return system.assembler.assemble(x, order, gradient);
 }
 
-/// Newton direction -(H + shift)^-1 g. The shift is zero where H is positive definite. Elsewhere it
-/// begins at a part of the last one, but no higher than in proportion to the residual, and grows
-/// until the factorisation succeeds: along a solve it decays to zero. Dropping it at once lets the
-/// soft modes run far off. False when no shift in range does.
-bool direction(System& system, const Vector& g, const NewtonOptions& options, NewtonResult& result,
-               Vector& step) {
+bool newton_direction(System& system, const Vector& g, const NewtonOptions& options,
+                      NewtonResult& result, Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
   if (system.analysed_pattern != system.assembler.pattern_version()) {
     Timed timed(system, "analysis");
@@ -61,8 +61,6 @@ bool direction(System& system, const Vector& g, const NewtonOptions& options, Ne
   }
   return false;
 }
-
-}  // namespace
 
 NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
                     const NewtonObserver& observer) {
@@ -93,7 +91,7 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
       return finish(NewtonStatus::too_many_iterations, "too many iterations");
 
     Vector step;
-    if (!direction(system, g, options, result, step))
+    if (!newton_direction(system, g, options, result, step))
       return finish(NewtonStatus::no_descent, "no shift makes the tangent positive definite");
     result.decrement = -g.dot(step);
     if (result.decrement <= options.energy_tolerance && result.residual <= options.force_tolerance)

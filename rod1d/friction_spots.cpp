@@ -14,6 +14,8 @@ namespace {
 
 /// Points of strand b that are farther apart than this belong to different spots [D].
 constexpr double same_spot = 0.5;
+/// Pieces of strand a whose points are one spot, and how far a spot is remembered beside [D].
+constexpr double piece_length = 0.1, same_piece = 2 * piece_length;
 
 /// A point of the rod: weights of four nodes and three angles, from the segment before on.
 struct Place {
@@ -73,42 +75,68 @@ struct Section {
   Vector3 tangent() const { return frame.col(2); }
 };
 
-using SlipJet = Jet<slip_variables>;
-using SlipVector = std::array<SlipJet, 3>;
+/// A vector that depends on one section: on its dy/ds and its angle.
+using SectionJet = Jet<4>;
+using SectionVector = std::array<SectionJet, 3>;
 
-SlipVector operator+(const SlipVector& a, const SlipVector& b) {
+SectionVector operator+(const SectionVector& a, const SectionVector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-SlipVector operator-(const SlipVector& a, const SlipVector& b) {
+SectionVector operator-(const SectionVector& a, const SectionVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-SlipVector operator*(const SlipVector& a, const SlipJet& b) {
+SectionVector operator*(const SectionVector& a, const SectionJet& b) {
   return {a[0] * b, a[1] * b, a[2] * b};
 }
 template <class Other>
-SlipJet dot(const SlipVector& a, const Other& b) {
+SectionJet dot(const SectionVector& a, const Other& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-SlipVector constant(const Vector3& v) { return {v[0], v[1], v[2]}; }
-SlipVector variables(const Vector3& v, int first) {
-  return {SlipJet::variable(v[0], first), SlipJet::variable(v[1], first + 1),
-          SlipJet::variable(v[2], first + 2)};
+SectionVector constant(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
+/// A vector fixed in a section with the tangent t0: turned about t0 by the change of the angle,
+/// then carried to the tangent of dy/ds.
+SectionVector fixed_in(const Section& section, const Vector3& v) {
+  const Vector3 t0 = section.tangent(), along = t0 * t0.dot(v), across = v - along;
+  const SectionJet turn = SectionJet::variable(0, 3);
+  const SectionVector turned = constant(along) +
+                               constant(across) * SectionJet::compose(turn, 1, 0, -1) +
+                               constant(t0.cross(across)) * SectionJet::compose(turn, 0, 1, 0);
+  const double l = section.stretch;
+  const SectionVector y = {SectionJet::variable(l * t0[0], 0), SectionJet::variable(l * t0[1], 1),
+                           SectionJet::variable(l * t0[2], 2)};
+  const SectionVector t =
+      y * SectionJet::compose(dot(y, y), 1 / l, -0.5 / (l * l * l), 0.75 / std::pow(l, 5));
+  const SectionVector sum = t + constant(t0);
+  return turned - sum * (dot(sum, turned) / (dot(t, t0) + 1.0)) + t * (2.0 * dot(turned, t0));
 }
 
-/// A vector fixed in a section with the tangent t0: turned about t0 by the change of the angle
-/// (variable `angle`), then carried to the tangent of dy/ds (variables from `slope` on).
-SlipVector fixed_in(const Section& section, int slope, int angle, const Vector3& v) {
-  const Vector3 t0 = section.tangent(), along = t0 * t0.dot(v), across = v - along;
-  const SlipJet turn = SlipJet::variable(0, angle);
-  const SlipVector turned = constant(along) + constant(across) * SlipJet::compose(turn, 1, 0, -1) +
-                            constant(t0.cross(across)) * SlipJet::compose(turn, 0, 1, 0);
-  const SlipVector y = variables(section.stretch * t0, slope);
-  const double l = section.stretch;
-  const SlipJet square = dot(y, y);
-  const SlipVector t =
-      y * SlipJet::compose(square, 1 / l, -0.5 / (l * l * l), 0.75 / std::pow(l, 5));
-  const SlipVector sum = t + constant(t0);
-  return turned - sum * (dot(sum, turned) / (dot(t, t0) + 1.0)) + t * (2.0 * dot(turned, t0));
+/// One component of the slip, axis_a . (p - q - on_b), with its derivatives by z: the axis is fixed
+/// in section a, the point on_b in section b.
+void slip_component(const SectionVector& axis, const Vector3& apart, const SectionVector& on_b,
+                    int c, FrictionSpot& spot) {
+  // Places in z of the variables of both sections.
+  constexpr std::array<int, 4> in_a{3, 4, 5, 9}, in_b{6, 7, 8, 10};
+  auto& gradient = spot.gradient;
+  auto& hessian = spot.hessian[c];
+  gradient.col(c).setZero();
+  hessian.setZero();
+  for (int i = 0; i < 3; ++i) {
+    const SectionJet &a = axis[i], &b = on_b[i];
+    const double d = apart[i] - b.value;
+    gradient(i, c) = a.value;
+    for (int k = 0; k < 4; ++k) {
+      gradient(in_a[k], c) += d * a.gradient[k];
+      gradient(in_b[k], c) -= a.value * b.gradient[k];
+      hessian(in_a[k], i) = hessian(i, in_a[k]) = a.gradient[k];
+      for (int l = 0; l < 4; ++l) {
+        hessian(in_a[k], in_a[l]) += d * a.hessian(k, l);
+        hessian(in_b[k], in_b[l]) -= a.value * b.hessian(k, l);
+        hessian(in_a[k], in_b[l]) -= a.gradient[k] * b.gradient[l];
+        hessian(in_b[l], in_a[k]) -= a.gradient[k] * b.gradient[l];
+      }
+    }
+  }
 }
 
 /// z = map x for two places.
@@ -126,45 +154,47 @@ Eigen::Matrix<double, slip_variables, friction_coordinates> slip_map(const Place
   return map;
 }
 
-/// Sums the points that belong to one spot.
-std::vector<RubbingPoint> merged(std::vector<RubbingPoint> points) {
-  std::sort(points.begin(), points.end(), [](const RubbingPoint& l, const RubbingPoint& r) {
-    return std::tuple(l.a, l.u_a, l.arc_b) < std::tuple(r.a, r.u_a, r.arc_b);
-  });
-  std::vector<RubbingPoint> sums;
-  double last = 0;
-  for (const RubbingPoint& point : points) {
-    if (!(point.force > 0)) continue;
-    const bool same = !sums.empty() && sums.back().a == point.a && sums.back().u_a == point.u_a &&
-                      point.arc_b - last < same_spot;
-    last = point.arc_b;
-    if (!same) {
-      sums.push_back(point);
-      continue;
-    }
-    RubbingPoint& sum = sums.back();
-    const double force = sum.force + point.force;
-    sum.arc_b += (point.arc_b - sum.arc_b) * point.force / force;
-    sum.force = force;
+/// Elastic slip that this place had at the last accepted state: of the spots before and behind it
+/// on the same strands, in between linearly. Zero for a new one.
+Vector2 remembered(const FrictionHistory& history, const RubbingPoint& spot) {
+  const auto& memory = history.memory;
+  const auto first =
+      std::lower_bound(memory.begin(), memory.end(), spot.arc_a - same_piece,
+                       [](const FrictionHistory::Memory& m, double arc) { return m.arc_a < arc; });
+  const FrictionHistory::Memory *before = nullptr, *behind = nullptr;
+  for (auto it = first; it != memory.end() && it->arc_a < spot.arc_a + same_piece; ++it) {
+    if (std::abs(it->arc_b - spot.arc_b) > same_spot) continue;
+    if (it->arc_a <= spot.arc_a) before = &*it;
+    if (it->arc_a > spot.arc_a && !behind) behind = &*it;
   }
-  return sums;
+  if (before && behind) {
+    const double w = (spot.arc_a - before->arc_a) / (behind->arc_a - before->arc_a);
+    return (1 - w) * before->elastic_slip + w * behind->elastic_slip;
+  }
+  const auto* nearest = before ? before : behind;
+  return nearest ? nearest->elastic_slip : Vector2::Zero();
 }
 
-/// Elastic slip that a spot had at the last accepted state; zero for a new one.
-Vector2 remembered(const FrictionHistory& history, const RubbingPoint& spot) {
-  Vector2 found = Vector2::Zero();
-  double nearest = same_spot;
-  const auto key = std::pair(spot.a, spot.u_a);
-  auto it = std::lower_bound(history.memory.begin(), history.memory.end(), key,
-                             [](const FrictionHistory::Memory& memory, const auto& key) {
-                               return std::pair(memory.a, memory.u_a) < key;
-                             });
-  for (; it != history.memory.end() && std::pair(it->a, it->u_a) == key; ++it)
-    if (std::abs(it->arc_b - spot.arc_b) < nearest) {
-      nearest = std::abs(it->arc_b - spot.arc_b);
-      found = it->elastic_slip;
-    }
-  return found;
+/// The segment that holds the arc length, and the place in it.
+Place place_at(const Rod& rod, const std::vector<double>& arc, double at) {
+  const auto above = std::upper_bound(arc.begin() + 1, arc.end() - 1, at);
+  const int segment = static_cast<int>(above - arc.begin()) - 1;
+  return Place(rod, segment, (at - arc[segment]) / rod.rest_length[segment]);
+}
+
+/// Adds what `slope` by a point's position is by the positions of its nodes.
+void add_slope(const Rod& rod, int segment, double u, const Vector3& slope,
+               std::vector<std::pair<int, Vector3>>& by_node) {
+  const auto weights =
+      curve_segment(rod.rest_length, segment).weights(u * rod.rest_length[segment]).value;
+  for (int k = 0; k < 4; ++k) {
+    if (weights[k] == 0) continue;
+    const int node = segment - 1 + k;
+    auto it = std::find_if(by_node.begin(), by_node.end(),
+                           [&](const auto& entry) { return entry.first == node; });
+    if (it == by_node.end()) it = by_node.insert(it, {node, Vector3::Zero()});
+    it->second += weights[k] * slope;
+  }
 }
 
 }  // namespace
@@ -185,10 +215,34 @@ std::array<int, friction_coordinates> friction_stencil(const Rod& rod, int a, in
   return coordinates;
 }
 
-std::vector<RubbingPoint> rubbing_points(const std::vector<ContactPoint>& points) {
-  std::vector<RubbingPoint> list;
-  for (const ContactPoint& at : points) list.push_back({at.segment_a, at.u_a, at.s_b, at.force});
-  return merged(std::move(list));
+std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points) {
+  struct Pressed {
+    int piece;
+    const ContactPoint* at;
+  };
+  std::vector<Pressed> pressed;
+  for (const ContactPoint& at : points)
+    if (at.force > 0) pressed.push_back({static_cast<int>(at.s_a / piece_length), &at});
+  std::sort(pressed.begin(), pressed.end(), [](const Pressed& l, const Pressed& r) {
+    return std::tuple(l.piece, l.at->s_b, l.at->s_a) < std::tuple(r.piece, r.at->s_b, r.at->s_a);
+  });
+  std::vector<RubbingPoint> spots;
+  for (size_t k = 0; k < pressed.size(); ++k) {
+    const ContactPoint& at = *pressed[k].at;
+    if (k == 0 || pressed[k - 1].piece != pressed[k].piece ||
+        at.s_b - pressed[k - 1].at->s_b > same_spot)
+      spots.push_back({});
+    RubbingPoint& spot = spots.back();
+    spot.force += at.force;
+    spot.arc_a += (at.s_a - spot.arc_a) * at.force / spot.force;
+    spot.arc_b += (at.s_b - spot.arc_b) * at.force / spot.force;
+    add_slope(rod, at.segment_a, at.u_a, -at.stiffness * at.normal, spot.force_slope);
+    add_slope(rod, at.segment_b, at.u_b, at.stiffness * at.normal, spot.force_slope);
+  }
+  std::sort(spots.begin(), spots.end(), [](const RubbingPoint& l, const RubbingPoint& r) {
+    return std::tuple(l.arc_a, l.arc_b) < std::tuple(r.arc_a, r.arc_b);
+  });
+  return spots;
 }
 
 std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<RubbingPoint>& points,
@@ -199,10 +253,8 @@ std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<Rubbi
   for (const RubbingPoint& point : points) {
     FrictionSpot spot;
     spot.at = point;
-    const auto above = std::upper_bound(arc.begin() + 1, arc.end() - 1, point.arc_b);
-    spot.b = static_cast<int>(above - arc.begin()) - 1;
-    const Place at_a(rod, point.a, point.u_a);
-    const Place at_b(rod, spot.b, (point.arc_b - arc[spot.b]) / rod.rest_length[spot.b]);
+    const Place at_a = place_at(rod, arc, point.arc_a), at_b = place_at(rod, arc, point.arc_b);
+    spot.a = at_a.segment, spot.b = at_b.segment;
     const Section a(rod, at_a, x, frames), b(rod, at_b, x, frames);
     const Section a_t0(rod, at_a, history.x, history.frames);
     const Section b_t0(rod, at_b, history.x, history.frames);
@@ -220,15 +272,12 @@ std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<Rubbi
 
     spot.slip = remembered(history, point) + axes.transpose() * slip;
     spot.map = slip_map(at_a, at_b);
-    const auto coordinates = friction_stencil(rod, point.a, spot.b);
+    const auto coordinates = friction_stencil(rod, spot.a, spot.b);
     spot.z.setZero();
     for (int k = 0; k < friction_coordinates; ++k) spot.z += spot.map.col(k) * x[coordinates[k]];
-    const SlipVector apart_now = variables(a.point - b.point, 0) - fixed_in(b, 6, 10, 0.5 * n);
-    for (const int c : {0, 1}) {
-      const SlipJet jet = dot(fixed_in(a, 3, 9, axes.col(c)), apart_now);
-      spot.gradient.col(c) = jet.gradient;
-      spot.hessian[c] = jet.hessian;
-    }
+    const SectionVector on_b = fixed_in(b, 0.5 * n);
+    for (const int c : {0, 1})
+      slip_component(fixed_in(a, axes.col(c)), a.point - b.point, on_b, c, spot);
     spots.push_back(spot);
   }
   return spots;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "rod1d/effects/contact.h"
@@ -12,15 +13,17 @@ namespace bight::rod1d {
 constexpr int friction_coordinates = 30;
 std::array<int, friction_coordinates> friction_stencil(const Rod& rod, int a, int b);
 
-/// Where a quadrature point of strand a is pressed, and by how much: contact points, summed.
+/// Where a short piece of strand a is pressed, and by how much: contact points, summed.
 struct RubbingPoint {
-  int a = 0;
-  double u_a = 0;    ///< place inside the segment, 0 to 1
-  double arc_b = 0;  ///< undeformed arc length of the mean place on strand b [D]
-  double force = 0;  ///< normal force N [E D^2]
+  double arc_a = 0, arc_b = 0;  ///< undeformed arc length of the mean places on both strands [D]
+  double force = 0;             ///< normal force N [E D^2]
+  /// dN/dx by the nodes that N depends on [E D].
+  std::vector<std::pair<int, Vector3>> force_slope;
 };
 
-std::vector<RubbingPoint> rubbing_points(const std::vector<ContactPoint>& points);
+/// Sums over pieces of strand a that are a tenth of D long, sorted by arc_a: slip varies little
+/// over that length, and is taken where the mean force acts.
+std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points);
 
 /// What slip depends on at one spot: p - q of the centerlines, dy/ds of both strands, and the
 /// angles of both sections.
@@ -38,7 +41,7 @@ constexpr int slip_variables = 11;
 /// true one.
 struct FrictionSpot {
   RubbingPoint at;
-  int b = 0;                                                        ///< segment of strand b
+  int a = 0, b = 0;                                                 ///< segments of the strands
   Eigen::Matrix<double, slip_variables, friction_coordinates> map;  ///< z = map x
   Eigen::Matrix<double, slip_variables, 1> z;                       ///< where it was frozen
   Vector2 slip;  ///< there, from the last accepted state on, with the elastic slip then
@@ -51,11 +54,10 @@ struct FrictionHistory {
   Vector x;
   Frames frames;  ///< at x
   struct Memory {
-    int a;
-    double u_a, arc_b;
+    double arc_a, arc_b;   ///< undeformed arc lengths of the spot [D]
     Vector2 elastic_slip;  ///< [D]
   };
-  std::vector<Memory> memory;
+  std::vector<Memory> memory;  ///< sorted by arc_a
 };
 
 /// The spots of these points at x, whose frames are `frames`. The slip since the last

@@ -75,15 +75,16 @@ double gauss_exact(const Vector3& p1, const Vector3& p2, const Vector3& p3, cons
 }  // namespace
 
 double writhe(const Polyline& line) {
-  constexpr double far = 6;  // midpoints in segment lengths: error of the midpoint rule < 1 %
+  constexpr double far =
+      6;  // midpoints in lengths of the longer segment: error of the midpoint rule < 1 %
   double sum = 0;
   for (size_t i = 0; i + 1 < line.size(); ++i) {
     const Vector3 e = line[i + 1] - line[i], middle = 0.5 * (line[i + 1] + line[i]);
-    const double size = e.norm();
+    const double size = e.squaredNorm();
     for (size_t j = i + 2; j + 1 < line.size(); ++j) {
       const Vector3 f = line[j + 1] - line[j], r = 0.5 * (line[j + 1] + line[j]) - middle;
       const double square = r.squaredNorm();
-      if (square > far * far * size * size)
+      if (square > far * far * std::max(size, f.squaredNorm()))
         sum -= e.cross(f).dot(r) / (square * std::sqrt(square));
       else
         sum += gauss_exact(line[i], line[i + 1], line[j], line[j + 1]);

@@ -1,5 +1,6 @@
 #include "rod1d/rod_model.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,11 +8,13 @@
 #include <tuple>
 #include <utility>
 
+#include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
 #include "rod1d/grip.h"
 #include "rod1d/knot_mesh.h"
 #include "rod1d/measure.h"
 #include "rod1d/polyline.h"
+#include "rod1d/remesh.h"
 
 namespace bight::rod1d {
 
@@ -40,6 +43,9 @@ constexpr int mesh_points = 500;
 constexpr int max_passes = 12;
 /// Share of the tension that further solves may still change when friction has settled.
 constexpr double settled_change = 5e-4;
+/// Iterations with the last state's friction, which bring contact forces into range, and those with
+/// the whole tangent, at most.
+constexpr int first_coupled = 2, most_coupled = 12;
 
 /// Tension of a loose overhand knot, T = 2 pi^2 B/ebar^2 (Audoly et al. 2007): the scale of forces
 /// before there is a first equilibrium [E D^2].
@@ -64,8 +70,8 @@ struct RodModel::Equations {
   System system;
 
   Equations(const std::vector<int>& blocks, const std::vector<bool>& held,
-            const EffectList& effects)
-      : unknowns(blocks, static_cast<int>(held.size()), held),
+            const std::vector<Image>& images, const EffectList& effects)
+      : unknowns(blocks, static_cast<int>(held.size()), held, {}, images),
         assembler(unknowns, effects),
         system{assembler, cholesky, Ordering::minimum_degree,
                [this](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }} {}
@@ -73,20 +79,29 @@ struct RodModel::Equations {
 
 RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
     : parameters_(parameters),
-      follows_(parameters.follow_knot && !parameters.twist && parameters.friction == 0),
+      follows_(parameters.follow_knot),
       rod_(uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio)),
       length_(parameters.length),
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
-  const Polyline line = chord_on_axis(meshed(start));
+  Polyline line = chord_on_axis(start);
+  if (parameters.symmetry && parameters.segments % 2 == 0 && rod_.straight())
+    if (auto aligned = TwoFold::aligned(line)) {
+      symmetry_.emplace(parameters.segments);
+      line = std::move(*aligned);
+    }
+  line = meshed(line);
   start_ebar_ = length_ - (line.back() - line.front()).norm();
   determinant_ = knot_determinant(line);
   force_scale_ = loose_tension(rod_, start_ebar_);
   stiffness_ = 4 * force_scale_ / (aimed_share * parameters.penetration);
   Vector x = coordinates_of(rod_, line, angles());
   place_grips(rod_, end_to_end(start_ebar_), x);
+  if (symmetry_) symmetry_->impose(x);
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
+  if (parameters.twist && symmetry_) symmetry_->align(source_);
   history_ = {x, source_, {}};
+  halve();
   choose_pin(x);
   set_equations();
   accepted_.push_back({start_ebar_, rod_.arc_length(), x});
@@ -99,8 +114,9 @@ Polyline RodModel::meshed(const Polyline& start) {
   const Polyline fine = resampled(start, points);
   std::vector<double> arc;
   for (int i = 0; i <= points; ++i) arc.push_back(length_ * i / points);
-  const std::vector<double> nodes = spread_nodes(
-      arc, wished_lengths(arc, fine), parameters_.segments, middle_node(), 0.5 * length_);
+  std::vector<double> nodes = spread_nodes(arc, wished_lengths(arc, fine), parameters_.segments,
+                                           middle_node(), 0.5 * length_);
+  if (symmetry_) symmetry_->impose(nodes);
   set_arc(nodes);
   return points_at(arc, fine, nodes);
 }
@@ -111,6 +127,44 @@ void RodModel::set_arc(const std::vector<double>& arc) {
   const auto law = effects_.contact ? effects_.contact->law() : ContactLaw{};
   effects_ = make_effects(rod_, parameters_, source_);
   if (effects_.contact) effects_.contact->set_law(law);
+  halve();
+}
+
+/// Of a symmetric rod, half the stencils are summed; friction takes half the contact points.
+void RodModel::halve() {
+  halves_.clear();
+  if (!symmetry_) return;
+  for (const auto& effect : effects_.list)
+    halves_.push_back(
+        std::make_unique<HalfEffect>(*effect, *symmetry_, effect.get() == effects_.friction));
+}
+
+/// The accepted state that the next solve starts from, on its nodes.
+void RodModel::put_before_on(const std::vector<double>& arc) {
+  const std::vector<double>& last = accepted_.back().arc;
+  before_.x = remeshed(last, history_.x, arc);
+  place_grips(rod_, end_to_end(accepted_.back().ebar), before_.x);
+  if (symmetry_) symmetry_->impose(before_.x);
+  before_.frames = remeshed(last, history_.frames, arc, before_.x);
+  if (symmetry_) symmetry_->impose(before_.frames);
+  keep_twist(last, history_.x, history_.frames, arc, before_.frames, before_.x);
+}
+
+void RodModel::keep_twist(const std::vector<double>& arc, const Vector& x, const Frames& frames,
+                          const std::vector<double>& wanted, const Frames& frames_wanted,
+                          Vector& x_wanted) const {
+  if (!symmetry_) {
+    rod1d::keep_twist(arc, x, frames, wanted, frames_wanted, 0, true, !finish_turns_, x_wanted);
+    return;
+  }
+  // Opposite angles before and behind the middle node, with its twist between them.
+  const int before = middle_node() - 1;
+  Vector twisted = x_wanted;
+  rod1d::keep_twist(arc, x, frames, wanted, frames_wanted, before, false, false, twisted);
+  x_wanted[rod_.angle(before)] =
+      0.5 * (twisted[rod_.angle(before)] - twisted[rod_.angle(before + 1)]);
+  rod1d::keep_twist(arc, x, frames, wanted, frames_wanted, before, !finish_turns_, false, x_wanted);
+  symmetry_->impose(x_wanted);
 }
 
 /// Where the nodes of an accepted state are wished; the middle one stays where it is.
@@ -122,8 +176,10 @@ std::vector<double> RodModel::wished_arc(const Accepted& at) const {
     arc.push_back(at.arc[i]);
     line.push_back(at.x.segment<3>(Rod::position(i)));
   }
-  return spread_nodes(arc, wished_lengths(arc, line), rod_.segments(), middle_node(),
-                      at.arc[middle_node()]);
+  std::vector<double> nodes = spread_nodes(arc, wished_lengths(arc, line), rod_.segments(),
+                                           middle_node(), at.arc[middle_node()]);
+  if (symmetry_) symmetry_->impose(nodes);
+  return nodes;
 }
 
 /// Nodes for the next solve: they go on as they went in the last step (which, unlike polynomials of
@@ -153,7 +209,7 @@ RodModel::~RodModel() = default;
 /// Friction holds the knot by itself: then no node is pinned.
 bool RodModel::choose_pin(const Vector& x) {
   const Pin before = pin_;
-  if (rubs_) {
+  if (rubs_ || symmetry_) {
     pin_ = {};
     return before.node >= 0;
   }
@@ -172,6 +228,12 @@ bool RodModel::choose_pin(const Vector& x) {
 
 void RodModel::set_equations() {
   std::vector<bool> held = held_coordinates(rod_, parameters_.twist, finish_turns_);
+  std::vector<Image> images;
+  if (symmetry_) {
+    images = symmetry_->images(parameters_.twist);
+    symmetry_->hold_middle(held);
+    if (parameters_.twist && finish_turns_) held[rod_.angle(0)] = false;
+  }
   if (pin_.node >= 0) {
     held[Rod::position(pin_.node) + pin_.axis] = true;
     held[Rod::position(middle_node()) + 2] = determinant_ != 1;
@@ -180,7 +242,8 @@ void RodModel::set_equations() {
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
   for (int i = 0; i < angles(); ++i) blocks.push_back(rod_.angle(i));
   seconds_ = seconds();
-  equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
+  equations_ =
+      std::make_unique<Equations>(blocks, held, images, symmetry_ ? halves_ : effects_.list);
 }
 
 void RodModel::let_rub() {
@@ -190,7 +253,8 @@ void RodModel::let_rub() {
 
 void RodModel::set_tied() {
   if (!parameters_.twist) return;
-  tied_angle_ = finish_angle_ = accepted_.back().x[rod_.angle(rod_.segments() - 1)];
+  finish_angle_ = accepted_.back().x[rod_.angle(rod_.segments() - 1)];
+  tied_turn_ = turn_between_ends(accepted_.back().x);
   finish_turns_ = parameters_.finish_turns;
   set_equations();
 }
@@ -255,11 +319,13 @@ Vector RodModel::extrapolated(double ebar, size_t most) const {
     }
     if (follows_) {
       if (!std::is_sorted(arc.begin(), arc.end())) x = now.x, arc = now.arc;
-      x = coordinates_of(rod_, points_at(arc, nodes_of(rod_, x), next_arc(ebar)), 0);
+      x = remeshed(arc, x, next_arc(ebar));
     }
   }
   place_grips(rod_, end_to_end(ebar), x);
   if (!finish_turns_) x[rod_.angle(rod_.segments() - 1)] = finish_angle_;
+  if (!finish_turns_ && symmetry_) x[rod_.angle(0)] = -finish_angle_;
+  if (symmetry_) symmetry_->impose(x);
   return x;
 }
 
@@ -281,35 +347,79 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
 void RodModel::freeze(const Vector& x) {
   source_ = carried_frames(rod_, source_, x);
   effects_.contact->refresh(x);
+  std::vector<ContactPoint> points = effects_.contact->points(x);
+  if (symmetry_) points = symmetry_->halved(std::move(points), length_);
   effects_.friction->set_spots(
-      friction_spots(rod_, rubbing_points(effects_.contact->points(x)), x, source_, history_));
+      friction_spots(rod_, rubbing_points(rod_, points), x, source_, before_));
+}
+
+/// Friction whose limits follow the normal forces, from a guess that is near: Newton steps with the
+/// whole tangent, after a few with the last state's friction (the contact forces of a guess are too
+/// rough to begin with). The spots are left frozen where it ends.
+NewtonResult RodModel::solve_rubbing(const Vector& guess) {
+  struct Following final : FollowingForces {
+    explicit Following(RodModel& model) : model(model) {}
+    void freeze(const Vector& x) override { model.freeze(x); }
+    void add_change(const Vector& dx, Vector& gradient) const override {
+      model.effects_.friction->add_change(dx, gradient);
+    }
+    RodModel& model;
+  } following(*this);
+  NewtonOptions options;
+  options.max_iterations = first_coupled;
+  options.energy_tolerance = 1e-2 * force_scale_;
+  options.force_tolerance = force_scale_;
+  options.largest_move = 1;
+  freeze(before_.x);
+  const NewtonResult begun = newton(equations_->system, guess, options);
+  options.max_iterations = most_coupled;
+  options.energy_tolerance = 1e-5 * force_scale_;
+  options.force_tolerance = 0.1 * force_scale_;
+  NewtonResult result = coupled_newton(equations_->system, following, begun.x, options);
+  result.iterations += begun.iterations, result.factorisations += begun.factorisations;
+  return result;
 }
 
 /// Equilibrium on the present nodes, with contact so stiff that strands overlap little. Without
-/// friction that is one minimisation, as a rule. Friction freezes the spots that rub (first those
-/// of the last accepted state) and is solved again with those of the solution until the tension has
-/// settled.
+/// friction that is one minimisation, as a rule. Friction freezes the spots that rub and is solved
+/// again with those of the solution until the tension has settled. Mostly the first spots are those
+/// of a state that is nearly in equilibrium with its own friction; where that is not found they are
+/// those of the last accepted state, and more solves are needed.
 NewtonResult RodModel::solve_contact(Vector x) {
   const double aimed = aimed_share * parameters_.penetration;
   double stiffness = effects_.contact ? effects_.contact->law().stiffness : 0;
+  if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
   NewtonResult result;
   int iterations = 0, factorisations = 0;
   double tension = 0, change = 0;
+  bool near = false;
+  if (rubs_ && tension_ > 0) {
+    result = solve_rubbing(x);
+    iterations = result.iterations, factorisations = result.factorisations;
+    near = result.ok();
+    if (near) {
+      tension = grip_forces(rod_, result.gradient).tension();
+      x = result.x;
+    } else {
+      source_ = before_.frames;
+    }
+  }
   for (int pass = 0; pass < max_passes; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
-    if (rubs_) freeze(pass == 0 ? history_.x : result.x);
+    if (rubs_ && !(near && pass == 0)) freeze(pass == 0 ? before_.x : result.x);
     result = solve_once(pass == 0 ? x : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
     const double last_change =
         std::abs(std::exchange(change, grip_forces(rod_, result.gradient).tension() - tension));
     tension += change;
+    const double little = settled_change * force_scale_;
     // The changes fall like a geometric series, at last: what is left is its rest. A small change
     // after a large one may be an overshoot.
     const double left = change * change / std::max(last_change - std::abs(change), 1e-30);
-    const bool settled =
-        !rubs_ || (pass > 1 && last_change <= 10 * settled_change * force_scale_ &&
-                   std::min(left, std::abs(change)) <= settled_change * force_scale_);
+    const bool settled = !rubs_ || (near && pass == 0 && std::abs(change) <= little) ||
+                         (pass > (near ? 0 : 1) && last_change <= 10 * little &&
+                          std::min(left, std::abs(change)) <= little);
     const double overlap = effects_.contact->touching(result.x).second;
     const bool first = tension_ == 0;
     if (settled && overlap <= parameters_.penetration &&
@@ -351,10 +461,21 @@ Vector RodModel::best_guess(const Vector& guess, double ebar) {
 }
 
 NewtonResult RodModel::solve(const Vector& guess, double ebar) {
-  source_ = history_.frames;
-  if (follows_) set_arc(next_arc(ebar));
+  before_ = history_;
+  Vector x = guess;
+  if (follows_) {
+    const std::vector<double> arc = next_arc(ebar);
+    set_arc(arc);
+    if (parameters_.twist) {
+      put_before_on(arc);
+      // Its angles count from frames that carry the twist to the new nodes.
+      const Vector plain = remeshed(accepted_.back().arc, history_.x, arc);
+      x.tail(angles()) += (before_.x - plain).tail(angles());
+    }
+  }
+  source_ = before_.frames;
   if (effects_.contact) effects_.contact->set_law({stiffness_, effects_.contact->law().onset});
-  Vector x = best_guess(guess, ebar);
+  if (!parameters_.twist) x = best_guess(guess, ebar);
   place_grips(rod_, end_to_end(ebar), x);
   NewtonResult result = solve_contact(x);
   last_iterations_ = result.iterations;
@@ -362,9 +483,16 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   for (int k = 0; follows_ && tension_ == 0 && result.ok() && k < first_meshes; ++k) {
     const Accepted first{ebar, rod_.arc_length(), result.x};
     const std::vector<double> arc = wished_arc(first);
-    x = coordinates_of(rod_, points_at(first.arc, nodes_of(rod_, first.x), arc), 0);
+    const Frames carried = parameters_.twist ? carried_frames(rod_, source_, first.x) : Frames{};
     set_arc(arc);
+    x = remeshed(first.arc, first.x, arc);
     place_grips(rod_, end_to_end(ebar), x);
+    if (symmetry_) symmetry_->impose(x);
+    if (parameters_.twist) {
+      source_ = remeshed(first.arc, carried, arc, x);
+      if (symmetry_) symmetry_->impose(source_);
+      keep_twist(first.arc, first.x, carried, arc, source_, x);
+    }
     const int iterations = result.iterations, factorisations = result.factorisations;
     result = solve_contact(std::move(x));
     result.iterations += iterations, result.factorisations += factorisations;
@@ -387,8 +515,23 @@ double RodModel::energy_lost(double ebar, double energy, double tension) const {
   return lost > 0.05 * std::abs(tension_ * step) + snap_energy * energy_ ? lost : 0;
 }
 
+/// Turn of the finish end against the start [rad].
+double RodModel::turn_between_ends(const Vector& x) const {
+  return x[rod_.angle(rod_.segments() - 1)] - x[rod_.angle(0)];
+}
+
+/// Forces on the grips, of a symmetric rod from the elements of both halves.
+GripForces RodModel::measured_forces(const NewtonResult& result) const {
+  if (!symmetry_) return grip_forces(rod_, result.gradient);
+  const Unknowns unknowns({}, 0, std::vector<bool>(result.x.size(), true));
+  Assembler whole(unknowns, effects_.list);
+  Vector gradient;
+  whole.assemble(result.x, Order::gradient, gradient);
+  return grip_forces(rod_, gradient);
+}
+
 StepRow RodModel::accept(const NewtonResult& result, double ebar) {
-  const GripForces forces = grip_forces(rod_, result.gradient);
+  const GripForces forces = measured_forces(result);
   const double snapped = energy_lost(ebar, result.energy, forces.tension());
   if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
   accepted_.push_back({ebar, rod_.arc_length(), result.x});
@@ -405,7 +548,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   if (parameters_.twist) {
     source_ = carried_frames(rod_, source_, result.x);
     history_ = {result.x, source_, {}};
-    row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied_angle_;
+    row.end_turn = turn_between_ends(result.x) - tied_turn_;
   }
   if (effects_.friction) {
     const Friction& friction = *effects_.friction;
@@ -442,11 +585,16 @@ RodState RodModel::state() const {
   RodState state;
   state.ebar = now.ebar;
   state.nodes = nodes_of(rod_, now.x);
+  // Both ends of a symmetric rod turn alike: seen from the start, the rod turns as a whole.
+  if (symmetry_ && parameters_.twist)
+    for (Vector3& p : state.nodes)
+      p = Eigen::AngleAxisd(-now.x[rod_.angle(0)], Vector3::UnitZ()) * p;
   state.s = rod_.arc_length();
   state.curvature = curvature(rod_, now.x);
   state.stretch = stretch(rod_, now.x);
   if (parameters_.twist) {
     state.twist_angle = twist_angles(rod_, source_, now.x);
+    for (double& angle : state.twist_angle) angle -= now.x[rod_.angle(0)];
     state.twist = twist_rate(rod_, state.twist_angle);
   }
   if (effects_.contact) state.contact_force = contact_force(rod_, effects_.contact->points(now.x));

@@ -2,11 +2,14 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanics/path.h"
 #include "rod1d/effects.h"
+#include "rod1d/grip.h"
 #include "rod1d/run_rod.h"
+#include "rod1d/two_fold.h"
 
 namespace bight::rod1d {
 
@@ -30,7 +33,7 @@ class RodModel final : public PathModel {
   /// The knot is tied: the finish end's turn is counted from here, and a clamped one held.
   void set_tied();
   /// Turns the held finish end about the pulling axis by `angle` [rad].
-  void turn_finish(double angle) { finish_angle_ += angle; }
+  void turn_finish(double angle) { finish_angle_ += symmetry_ ? 0.5 * angle : angle; }
 
   /// The newest accepted state in full.
   RodState state() const;
@@ -55,6 +58,10 @@ class RodModel final : public PathModel {
   std::vector<double> next_arc(double ebar) const;
   Polyline meshed(const Polyline& start);
   void set_arc(const std::vector<double>& arc);
+  void put_before_on(const std::vector<double>& arc);
+  void keep_twist(const std::vector<double>& arc, const Vector& x, const Frames& frames,
+                  const std::vector<double>& wanted, const Frames& frames_wanted,
+                  Vector& x_wanted) const;
   std::vector<double> wished_arc(const Accepted& at) const;
   int angles() const { return parameters_.twist ? rod_.segments() : 0; }
   int middle_node() const { return rod_.segments() / 2; }
@@ -63,8 +70,12 @@ class RodModel final : public PathModel {
   void set_equations();
   Vector tangent(double ebar) const;
   void freeze(const Vector& x);
+  void halve();
+  double turn_between_ends(const Vector& x) const;
+  GripForces measured_forces(const NewtonResult& result) const;
   double energy_lost(double ebar, double energy, double tension) const;
   NewtonResult solve_once(const Vector& guess);
+  NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_contact(Vector x);
 
   RodParameters parameters_;
@@ -74,10 +85,14 @@ class RodModel final : public PathModel {
   int determinant_;
   Frames source_;            ///< frames that twist is counted from; empty without twist
   FrictionHistory history_;  ///< the newest accepted state; empty without twist
+  FrictionHistory before_;   ///< the same on the nodes of the present solve
   bool finish_turns_ = true;
-  bool rubs_ = false;                         ///< friction acts
-  double tied_angle_ = 0, finish_angle_ = 0;  ///< of the last segment: when tied, when held [rad]
+  bool rubs_ = false;                ///< friction acts
+  double tied_turn_ = 0;             ///< between the ends, when tied [rad]
+  double finish_angle_ = 0;          ///< of the last segment, when held [rad]
+  std::optional<TwoFold> symmetry_;  ///< then one half is simulated
   RodEffects effects_;
+  EffectList halves_;  ///< of a symmetric rod: the same, summed over one half and its image
   std::unique_ptr<Equations> equations_;
   struct Pin {
     int node = -1, axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius

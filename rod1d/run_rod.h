@@ -22,9 +22,10 @@ struct RodParameters {
   bool twist = false;   ///< twist angles are unknowns
   double friction = 0;  ///< Coulomb coefficient; 0: no friction effect
   int segments = 340;
-  /// Nodes follow the knot along the rod instead of staying at equal distances on it. Only without
-  /// friction, twist and natural shape, which belong to material points.
+  /// Nodes follow the knot along the rod instead of staying at equal distances on it. What friction
+  /// and twist remember of material points is carried along.
   bool follow_knot = true;
+  bool symmetry = true;  ///< one half is simulated if the start has a two-fold axis
   double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
 };

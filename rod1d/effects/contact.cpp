@@ -339,7 +339,8 @@ std::vector<ContactPoint> Contact::points(const Vector& x) const {
                  [&](int i, int j, const Vector3& d, double distance) {
                    list.push_back({at.a, at.b, (i + 0.5) / a.size(), (j + 0.5) / b.size(), a.arc[i],
                                    b.arc[j], d / distance, distance - 1,
-                                   -a.spacing * b.spacing * law_.slope(distance - 1)});
+                                   -a.spacing * b.spacing * law_.slope(distance - 1),
+                                   a.spacing * b.spacing * law_.curvature(distance - 1)});
                  });
   }
   return list;

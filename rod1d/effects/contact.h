@@ -52,6 +52,7 @@ struct ContactPoint {
   Vector3 normal = Vector3::Zero();  ///< unit vector from b to a
   double gap = 0;                    ///< [D]
   double force = 0;                  ///< [E D^2]
+  double stiffness = 0;              ///< -dforce/dgap [E D]
 };
 
 /// Self-contact of the tube.

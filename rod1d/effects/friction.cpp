@@ -28,7 +28,7 @@ Friction::Coordinates Friction::gather(const Vector& x, int a, int b) const {
 }
 
 double Friction::slip_size(const Vector& x, const FrictionSpot& spot) const {
-  return slip(spot, gather(x, spot.at.a, spot.b)).value.norm();
+  return slip(spot, gather(x, spot.a, spot.b)).value.norm();
 }
 
 void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) const {
@@ -61,12 +61,12 @@ void Friction::set_spots(std::vector<FrictionSpot> spots) {
   spots_ = std::move(spots);
   groups_.clear();
   std::sort(spots_.begin(), spots_.end(), [](const FrictionSpot& l, const FrictionSpot& r) {
-    return std::tuple(l.at.a, l.b, l.at.u_a) < std::tuple(r.at.a, r.b, r.at.u_a);
+    return std::tuple(l.a, l.b, l.at.arc_a) < std::tuple(r.a, r.b, r.at.arc_a);
   });
   for (int k = 0; k < static_cast<int>(spots_.size()); ++k) {
     const FrictionSpot& spot = spots_[k];
-    if (k == 0 || spots_[k - 1].at.a != spot.at.a || spots_[k - 1].b != spot.b)
-      groups_.push_back({k, k, friction_stencil(rod_, spot.at.a, spot.b)});
+    if (k == 0 || spots_[k - 1].a != spot.a || spots_[k - 1].b != spot.b)
+      groups_.push_back({k, k, friction_stencil(rod_, spot.a, spot.b)});
     groups_.back().end = k + 1;
   }
 }
@@ -74,14 +74,14 @@ void Friction::set_spots(std::vector<FrictionSpot> spots) {
 std::vector<FrictionHistory::Memory> Friction::memory(const Vector& x) const {
   std::vector<FrictionHistory::Memory> list;
   for (const FrictionSpot& spot : spots_) {
-    const Vector2 s = slip(spot, gather(x, spot.at.a, spot.b)).value;
+    const Vector2 s = slip(spot, gather(x, spot.a, spot.b)).value;
     const double size = s.norm();
     const bool slides = law(spot).slides(size);
-    list.push_back({spot.at.a, spot.at.u_a, spot.at.arc_b,
-                    slides ? Vector2(s * (largest_elastic_slip / size)) : s});
+    list.push_back(
+        {spot.at.arc_a, spot.at.arc_b, slides ? Vector2(s * (largest_elastic_slip / size)) : s});
   }
   std::sort(list.begin(), list.end(), [](const auto& l, const auto& r) {
-    return std::tuple(l.a, l.u_a, l.arc_b) < std::tuple(r.a, r.u_a, r.arc_b);
+    return std::tuple(l.arc_a, l.arc_b) < std::tuple(r.arc_a, r.arc_b);
   });
   return list;
 }
@@ -97,6 +97,19 @@ double Friction::dissipated(const Vector& x) const {
   double sum = 0;
   for (const FrictionSpot& spot : spots_) sum += law(spot).dissipated(slip_size(x, spot));
   return sum;
+}
+
+void Friction::add_change(const Vector& dx, Vector& gradient) const {
+  for (const FrictionSpot& spot : spots_) {
+    double change = 0;  // of N
+    for (const auto& [node, slope] : spot.at.force_slope)
+      change += slope.dot(dx.segment<3>(Rod::position(node)));
+    const Vector2 by_slip =
+        friction_element(spot.slip, law(spot)).gradient * (change / spot.at.force);
+    const Coordinates by_x = spot.map.transpose() * (spot.gradient * by_slip);
+    const auto coordinates = friction_stencil(rod_, spot.a, spot.b);
+    for (int k = 0; k < friction_coordinates; ++k) gradient[coordinates[k]] += by_x[k];
+  }
 }
 
 double Friction::normal_force() const {

@@ -30,6 +30,9 @@ class Friction final : public Effect {
   double stored(const Vector& x) const;
   double dissipated(const Vector& x) const;
   double normal_force() const;  ///< summed over the spots [E D^2]
+  /// Adds to the gradient what it changes by where the normal forces follow dx, at the state for
+  /// which the spots were frozen.
+  void add_change(const Vector& dx, Vector& gradient) const;
 
  private:
   struct Group {  ///< spots between the same two segments

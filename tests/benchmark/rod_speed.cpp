@@ -33,6 +33,11 @@ RodParameters rod(double length, int segments, double from, double to, double ma
   return p;
 }
 
+void rub(RodParameters& p, double friction) {
+  p.friction = friction;
+  p.twist = true;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases = {
       {"n1", "L0 = 312.5 D, 300 segments, ebar 225 -> 0, every 1 recorded",
@@ -42,6 +47,12 @@ std::vector<Case> all_cases() {
       {"loose", "L0 = 266.6 D, 400 segments, ebar 200 -> 50", rod(266.6, 400, 200, 50, 2, 0)},
       {"long", "L0 = 2400 D, 400 segments, ebar 800 -> 200", rod(2400, 400, 800, 200, 20, 0)},
   };
+  cases.push_back({"n1_friction", "the same, mu = 0.3, both ends clamped", cases[0].parameters});
+  rub(cases.back().parameters, 0.3);
+  cases.back().parameters.finish_turns = false;
+  cases.push_back({"tight_friction", "L0 = 42.17 D, 338 segments, ebar 30 -> 9, mu = 0.32",
+                   cases[1].parameters});
+  rub(cases.back().parameters, 0.32);
   for (const int segments : {300, 3000, 30000}) {
     cases.push_back(
         {"linear" + std::to_string(segments),
@@ -84,7 +95,8 @@ void run(const Case& c, bool each_step) {
   std::fflush(stdout);
 }
 
-/// try LENGTH SEGMENTS FROM TO STEP [KNOT] [uniform]: one path of one's own, step by step.
+/// try LENGTH SEGMENTS FROM TO STEP [KNOT] [uniform] [whole] [clamped] [mu=0.3]: one path of one's
+/// own, step by step.
 Case own_case(const std::vector<std::string>& words) {
   const auto number = [&](size_t i) { return std::stod(words.at(i)); };
   Case c{"try", "a path of one's own",
@@ -92,6 +104,12 @@ Case own_case(const std::vector<std::string>& words) {
   for (size_t i = 6; i < words.size(); ++i) {
     if (words[i] == "uniform")
       c.parameters.follow_knot = false;
+    else if (words[i] == "clamped")
+      c.parameters.finish_turns = false, c.parameters.twist = true;
+    else if (words[i] == "whole")
+      c.parameters.symmetry = false;
+    else if (words[i].starts_with("mu="))
+      rub(c.parameters, std::stod(words[i].substr(3)));
     else
       c.parameters.knot = words[i];
   }

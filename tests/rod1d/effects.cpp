@@ -40,8 +40,8 @@ struct EveryEffect {
     for (int i = 0; i < rod.nodes(); ++i) before[3 * i + 2] += std::sin(0.3 * i);
     const FrictionHistory history{before, carried_frames(rod, source, before), {}};
     effects.contact->refresh(x);
-    effects.friction->set_spots(friction_spots(rod, rubbing_points(effects.contact->points(x)), x,
-                                               carried_frames(rod, source, x), history));
+    effects.friction->set_spots(friction_spots(rod, rubbing_points(rod, effects.contact->points(x)),
+                                               x, carried_frames(rod, source, x), history));
   }
 };
 
@@ -104,6 +104,48 @@ TEST_CASE("derivatives of every effect of the rod converge with second order") {
                               3 * every.rod.nodes() + (angles ? every.rod.segments() : 0));
     }
   }
+}
+
+TEST_CASE("friction changes as its normal forces do") {
+  EveryEffect every(false);
+  const Vector x = states(every.rod)[2].x, v = shaken(Vector::Zero(x.size()), 1);
+  every.source = twist_free_frames(every.rod, x);
+  every.rub(x);
+  Friction& friction = *every.effects.friction;
+  REQUIRE(friction.spots().size() > 10);
+  Vector change = Vector::Zero(x.size());
+  friction.add_change(v, change);
+  REQUIRE(change.norm() > 0);
+  // The same spots, with the normal forces that they have a little to either side.
+  const std::vector<FrictionSpot> spots = friction.spots();
+  const auto gradient_at = [&](double h) {
+    every.effects.contact->refresh(x + h * v);
+    const auto points = rubbing_points(every.rod, every.effects.contact->points(x + h * v));
+    REQUIRE(points.size() == spots.size());
+    std::vector<FrictionSpot> pressed = spots;
+    for (FrictionSpot& spot : pressed) {
+      const auto nearest =
+          std::min_element(points.begin(), points.end(), [&](const auto& l, const auto& r) {
+            const auto off = [&](const RubbingPoint& p) {
+              return std::abs(p.arc_a - spot.at.arc_a) + std::abs(p.arc_b - spot.at.arc_b);
+            };
+            return off(l) < off(r);
+          });
+      spot.at.force = nearest->force;
+    }
+    friction.set_spots(pressed);
+    Vector gradient = Vector::Zero(x.size());
+    for (int i = 0; i < friction.stencils(); ++i) {
+      std::array<double, friction_coordinates> g{};
+      ElementSlot slot{0, g.data()};
+      friction.element(x, i, Order::gradient, slot);
+      for (int k = 0; k < friction_coordinates; ++k) gradient[friction.coordinates(i)[k]] += g[k];
+    }
+    return gradient;
+  };
+  const double h = 1e-7;
+  const Vector difference = (gradient_at(h) - gradient_at(-h)) / (2 * h);
+  CHECK((difference - change).norm() < 1e-4 * change.norm());
 }
 
 TEST_CASE("a rigid motion changes no energy, and internal forces and torques balance") {

@@ -111,7 +111,8 @@ TEST_CASE("long tails: the excess over the loose-knot law falls about as 1/sqrt(
   CHECK(e400 / e800 == Approx(std::sqrt(2.0)).epsilon(0.15));
 }
 
-TEST_CASE("301 nodes from ebar 225 to 0 lie below the dynamic peers, within their spread", "[.long]") {
+TEST_CASE("301 nodes from ebar 225 to 0 lie below the dynamic peers, within their spread",
+          "[.long]") {
   const RodResult result = run_rod(rod(312.5, 300, {225, 0}, 1));
   INFO(result.outcome.reason);
   REQUIRE(result.outcome.status == PathStatus::finished);

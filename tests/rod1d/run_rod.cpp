@@ -120,7 +120,7 @@ TEST_CASE("a state of another knot type is no solution") {
   for (int i = 2; i + 1 < last; ++i) {
     const double u = static_cast<double>(i) / last;
     guess.segment<3>(3 * i) =
-        Vector3(13.5 * std::sin(M_PI * u), 0.3 * std::sin(2 * M_PI * u), 14.17 * (u - 0.5));
+        Vector3(19.2 * std::sin(M_PI * u), 0.3 * std::sin(2 * M_PI * u), 14.17 * (u - 0.5));
   }
   const NewtonResult result = model.solve(guess, 28);
   CHECK_FALSE(result.ok());

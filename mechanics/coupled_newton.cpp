@@ -1,0 +1,81 @@
+#include "mechanics/coupled_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/gmres.h"
+#include "mechanics/newton_direction.h"
+
+namespace bight {
+
+namespace {
+
+constexpr int most_products = 12;
+constexpr double linear_tolerance = 1e-3;
+/// Growth of the residual over its smallest value so far that ends the attempt.
+constexpr double lost = 1e3;
+
+}  // namespace
+
+NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
+                            const NewtonOptions& options) {
+  Assembler& assembler = system.assembler;
+  const Unknowns& unknowns = assembler.unknowns();
+  NewtonResult result;
+  auto finish = [&](NewtonStatus status, std::string reason) {
+    result.status = status;
+    result.reason = std::move(reason);
+    result.x = std::move(x);
+    return result;
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (;; ++result.iterations) {
+    forces.freeze(x);
+    result.energy = evaluate(system, x, Order::hessian, result.gradient);
+    const Vector g = unknowns.reduce(x, result.gradient);
+    if (!std::isfinite(result.energy) || !g.allFinite())
+      return finish(NewtonStatus::not_finite, "the residual is not finite");
+    result.residual = g.size() ? g.cwiseAbs().maxCoeff() : 0.0;
+    if (result.iterations > 0 && result.residual <= options.force_tolerance &&
+        result.decrement <= options.energy_tolerance)
+      return finish(NewtonStatus::converged, "");
+    if (result.residual > lost * least) return finish(NewtonStatus::stalled, "the residual grows");
+    least = std::min(least, result.residual);
+    if (result.iterations >= options.max_iterations)
+      return finish(NewtonStatus::too_many_iterations, "too many iterations");
+
+    Vector step;
+    if (!newton_direction(system, g, options, result, step))
+      return finish(NewtonStatus::no_descent, "no shift makes the tangent positive definite");
+    step = gmres(
+        [&](const Vector& v) {
+          Vector change = Vector::Zero(x.size());
+          forces.add_change(unknowns.expand(x, v), change);
+          return Vector(v + system.cholesky.solve(unknowns.reduce(x, change)));
+        },
+        step, most_products, linear_tolerance);
+    if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");
+    result.decrement = std::abs(g.dot(step));
+
+    Vector dx = unknowns.expand(x, step);
+    for (const auto& effect : assembler.effects()) effect->recover(x, dx);
+    const auto moved = dx.head(unknowns.coordinates());
+    double longest = std::min(1.0, options.largest_move / moved.cwiseAbs().maxCoeff());
+    for (const auto& effect : assembler.effects())
+      longest = std::min(longest, effect->longest_step(x, dx));
+    const auto energy_at = [&](double fraction) {
+      Vector trial = x;
+      system.advance(trial, fraction * dx);
+      assembler.refresh(trial);
+      const double energy = assembler.energy(trial);
+      return std::isfinite(energy) ? energy : inadmissible;
+    };
+    // The frozen energy is what keeps a wild step in bounds; near the solution it may rise.
+    const double rise = options.bound.allowed(result.iterations) + 2 * result.decrement;
+    const LineSearchResult found = search(energy_at, result.energy, rise, longest);
+    if (found.step == 0) return finish(NewtonStatus::stalled, "no step lowers the energy");
+    system.advance(x, found.step * dx);
+  }
+}
+
+}  // namespace bight
