@@ -12,6 +12,8 @@ namespace {
 
 constexpr int most_products = 12;
 constexpr double linear_tolerance = 1e-3;
+/// Decrements below this many tolerances are those of steps that need no search.
+constexpr double small_step = 100;
 /// Growth of the residual over its smallest value so far that ends the attempt.
 constexpr double lost = 1e3;
 
@@ -63,6 +65,10 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     double longest = std::min(1.0, options.largest_move / moved.cwiseAbs().maxCoeff());
     for (const auto& effect : assembler.effects())
       longest = std::min(longest, effect->longest_step(x, dx));
+    if (longest == 1 && result.decrement <= small_step * options.energy_tolerance) {
+      system.advance(x, dx);
+      continue;
+    }
     const auto energy_at = [&](double fraction) {
       Vector trial = x;
       system.advance(trial, fraction * dx);

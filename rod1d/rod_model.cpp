@@ -43,9 +43,9 @@ constexpr int mesh_points = 500;
 constexpr int max_passes = 12;
 /// Share of the tension that further solves may still change when friction has settled.
 constexpr double settled_change = 5e-4;
-/// Iterations with the last state's friction, which bring contact forces into range, and those with
-/// the whole tangent, at most.
-constexpr int first_coupled = 2, most_coupled = 12;
+/// Iterations with the last state's friction, which bring contact forces into range (where a few do
+/// not, many), and those with the whole tangent, at most.
+constexpr int few_first = 2, many_first = 30, most_coupled = 12;
 
 /// Tension of a loose overhand knot, T = 2 pi^2 B/ebar^2 (Audoly et al. 2007): the scale of forces
 /// before there is a first equilibrium [E D^2].
@@ -354,9 +354,9 @@ void RodModel::freeze(const Vector& x) {
 }
 
 /// Friction whose limits follow the normal forces, from a guess that is near: Newton steps with the
-/// whole tangent, after a few with the last state's friction (the contact forces of a guess are too
-/// rough to begin with). The spots are left frozen where it ends.
-NewtonResult RodModel::solve_rubbing(const Vector& guess) {
+/// whole tangent, after some with the last state's friction (the contact forces of a guess are too
+/// rough to begin with), a few or as many as it takes. The spots are left frozen where it ends.
+NewtonResult RodModel::solve_rubbing(const Vector& guess, bool thorough) {
   struct Following final : FollowingForces {
     explicit Following(RodModel& model) : model(model) {}
     void freeze(const Vector& x) override { model.freeze(x); }
@@ -366,9 +366,9 @@ NewtonResult RodModel::solve_rubbing(const Vector& guess) {
     RodModel& model;
   } following(*this);
   NewtonOptions options;
-  options.max_iterations = first_coupled;
-  options.energy_tolerance = 1e-2 * force_scale_;
-  options.force_tolerance = force_scale_;
+  options.max_iterations = thorough ? many_first : few_first;
+  options.energy_tolerance = (thorough ? 1e-5 : 1e-2) * force_scale_;
+  options.force_tolerance = (thorough ? 0.01 : 1) * force_scale_;
   options.largest_move = 1;
   freeze(before_.x);
   const NewtonResult begun = newton(equations_->system, guess, options);
@@ -394,9 +394,13 @@ NewtonResult RodModel::solve_contact(Vector x) {
   double tension = 0, change = 0;
   bool near = false;
   if (rubs_ && tension_ > 0) {
-    result = solve_rubbing(x);
-    iterations = result.iterations, factorisations = result.factorisations;
-    near = result.ok();
+    for (const bool thorough : {false, true}) {
+      source_ = before_.frames;
+      result = solve_rubbing(x, thorough);
+      iterations += result.iterations, factorisations += result.factorisations;
+      near = result.ok();
+      if (near) break;
+    }
     if (near) {
       tension = grip_forces(rod_, result.gradient).tension();
       x = result.x;

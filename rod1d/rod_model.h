@@ -75,7 +75,7 @@ class RodModel final : public PathModel {
   GripForces measured_forces(const NewtonResult& result) const;
   double energy_lost(double ebar, double energy, double tension) const;
   NewtonResult solve_once(const Vector& guess);
-  NewtonResult solve_rubbing(const Vector& guess);
+  NewtonResult solve_rubbing(const Vector& guess, bool thorough);
   NewtonResult solve_contact(Vector x);
 
   RodParameters parameters_;
