@@ -106,7 +106,18 @@ class Check {
     if (scene_.friction > 0 && !scene_.contact) refuse("effects.contact", "friction needs contact");
   }
 
+  void motion() {
+    const auto direction = values_.get<std::vector<double>>("effects.gravity_direction");
+    if (direction.size() != 3 || Vector3(direction.data()) == Vector3::Zero())
+      refuse("effects.gravity_direction", "give three numbers, x, y and z, that are not all zero");
+    if (scene_.damping > 0 && !scene_.inertia)
+      refuse("effects.damping",
+             "a path of equilibria has no motion to damp; needs effects.inertia");
+  }
+
   void effects() {
+    if (scene_.follow_knot && scene_.inertia)
+      refuse("rod1d.follow_knot", "inertia belongs to material points, which nodes must not leave");
     bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {
@@ -151,6 +162,7 @@ void check_scene(Scene& scene, const Values& values, Problems& problems) {
   check.resolution();
   check.ends();
   check.friction();
+  check.motion();
   check.effects();
 }
 

@@ -9,9 +9,13 @@ std::vector<AskedEffect> asked_effects(const Scene& scene) {
       {"strain", "", false, true},
   };
   if (scene.contact) effects.push_back({"contact", "effects.contact"});
-  if (scene.friction > 0)
-    effects.push_back({"friction", "effects.friction"});
+  if (scene.friction > 0) effects.push_back({"friction", "effects.friction"});
   if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
+  const bool rod_alone = !scene.solid;
+  if (scene.gravity != Vector3::Zero())
+    effects.push_back({"gravity", "effects.gravity", true, false, rod_alone});
+  if (scene.inertia) effects.push_back({"inertia", "effects.inertia", true, false, rod_alone});
+  if (scene.damping > 0) effects.push_back({"damping", "effects.damping", true, false, rod_alone});
   return effects;
 }
 

@@ -42,6 +42,7 @@ void derive_defaults(Values& values) {
   derive(values, "solid3d.seed_ebar", waypoints.front());
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
+  derive(values, "rod1d.follow_knot", !values.get<bool>("effects.inertia"));
   const double most = values.get<bool>("rod1d.follow_knot") ? 400 : 1e5;
   derive(values, "rod1d.segments", std::clamp(2 * std::round(4 * slenderness), 60.0, most));
 }
@@ -80,6 +81,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.diameter = values.number("rod.diameter");
   scene.youngs_modulus = values.number("material.youngs_modulus");
   scene.poissons_ratio = values.number("material.poissons_ratio");
+  scene.density = values.number("material.density");
   scene.bulk_to_shear = values.number("material.bulk_to_shear");
   scene.knot = values.word("knot.type");
   scene.centerline = values.word("knot.centerline");
@@ -88,6 +90,13 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.contact = values.get<bool>("effects.contact");
   scene.twist = values.get<bool>("effects.twist");
   scene.friction = values.number("effects.friction");
+  const auto direction = values.get<std::vector<double>>("effects.gravity_direction");
+  const Vector3 down = direction.size() == 3 ? Vector3(direction.data()) : Vector3::Zero();
+  if (down.norm() > 0) scene.gravity = values.number("effects.gravity") * down.normalized();
+  scene.inertia = values.get<bool>("effects.inertia");
+  scene.damping = values.number("effects.damping");
+  scene.speed = values.number("path.speed");
+  scene.time_tolerance = values.number("path.time_tolerance");
   scene.path.waypoints = values.get<std::vector<double>>("path.ebar");
   scene.path.record = values.get<std::vector<double>>("path.record");
   scene.path.max_step = values.number("path.max_step");
@@ -138,6 +147,11 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.contact = scene.contact;
   rod.twist = scene.twist;
   rod.friction = scene.friction;
+  rod.gravity = scene.gravity / scene.scales().acceleration();
+  rod.inertia = scene.inertia;
+  rod.damping = scene.damping * scene.scales().time();
+  rod.speed = scene.speed / scene.scales().speed();
+  rod.time_tolerance = scene.time_tolerance;
   rod.segments = scene.segments;
   rod.follow_knot = scene.follow_knot;
   rod.symmetry = scene.rod_symmetry;

@@ -18,11 +18,17 @@ struct Scene {
   std::string title;
   bool rod = true, solid = true;  ///< fidelities
   double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5, bulk_to_shear = 1000;
+  double density = 0;
   std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
   std::filesystem::path centerline;  ///< file with the tied start; empty with a knot
   bool finish_turns = true, contact = true, twist = false, symmetry = true, rod_symmetry = true;
   double finish_turn = 0;  ///< of a clamped finish end of the rod [rad]
   double friction = 0;
+  Vector3 gravity = Vector3::Zero();  ///< acceleration [m/s^2]
+  bool inertia = false;
+  double damping = 0;  ///< alpha [1/s]
+  double speed = 0;    ///< of the moving end [m/s]
+  double time_tolerance = 0;
   Path path;
   int segments = 0;
   bool follow_knot = true;
@@ -35,7 +41,7 @@ struct Scene {
   std::string text;                   ///< the scene with every default and override filled in
 
   double slenderness() const { return length / diameter; }
-  Scales scales() const { return {diameter, youngs_modulus}; }
+  Scales scales() const { return {diameter, youngs_modulus, density}; }
 };
 
 /// Reads and checks a scene; `fidelities` (when not empty) replaces those of the scene.

@@ -36,6 +36,8 @@ struct StepRow {
   double min_jacobian = 1;       ///< smallest volume ratio of a cell (solid)
   double end_turn = 0;           ///< rotation of the finish end about the pulling axis [rad]
   double snapped = 0;  ///< energy lost by jumping to another branch of equilibria [E D^3]; 0: none
+  double time = 0;     ///< since the path began, where there is inertia [D sqrt(rho/E)]
+  double kinetic = 0;  ///< part of the stored energy that is kinetic [E D^3]
   double ebar_unstretched = 0;  ///< ebar of a rod of the stretched length: ebar + elongation/D
 };
 

@@ -19,6 +19,9 @@ struct Rod {
   double bending_stiffness = std::numbers::pi / 64;    ///< B [E D^4]
   double twisting_stiffness = 0;                       ///< C = B/(1 + nu) [E D^4]
 
+  double mass_per_length = std::numbers::pi / 4;       ///< rho A [rho D^2]
+  double spin_inertia = std::numbers::pi / 32;         ///< rho J, about the tangent [rho D^4]
+
   /// At the nodes, when free: curvature about d1 and d2 of the material frames, and twist, times
   /// the length that the node stands for [rad]. Empty: none.
   std::vector<Vector2> rest_curvature;

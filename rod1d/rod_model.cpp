@@ -15,6 +15,7 @@
 #include "rod1d/measure.h"
 #include "rod1d/polyline.h"
 #include "rod1d/remesh.h"
+#include "rod1d/rod_state.h"
 
 namespace bight::rod1d {
 
@@ -79,13 +80,14 @@ struct RodModel::Equations {
 
 RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
     : parameters_(parameters),
-      follows_(parameters.follow_knot),
+      follows_(parameters.follow_knot && !parameters.inertia),
       rod_(uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio)),
       length_(parameters.length),
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
   Polyline line = chord_on_axis(start);
-  if (parameters.symmetry && parameters.segments % 2 == 0 && rod_.straight())
+  if (parameters.symmetry && parameters.segments % 2 == 0 && rod_.straight() &&
+      !parameters.inertia && parameters.gravity == Vector3::Zero())
     if (auto aligned = TwoFold::aligned(line)) {
       symmetry_.emplace(parameters.segments);
       line = std::move(*aligned);
@@ -206,12 +208,17 @@ RodModel::~RodModel() = default;
 /// is zero. If the rod is knotted, the middle node is held along the axis against the second; that
 /// reaction is what the ends' tensions differ by, zero for a knot that is symmetric about it.
 ///
-/// Friction holds the knot by itself: then no node is pinned.
+/// Weight makes the knot hang, so that only the second is needed. Friction holds it by itself: then
+/// no node is pinned.
 bool RodModel::choose_pin(const Vector& x) {
   const Pin before = pin_;
   if (rubs_ || symmetry_) {
     pin_ = {};
     return before.node >= 0;
+  }
+  if (parameters_.gravity != Vector3::Zero()) {
+    pin_ = {middle_node(), 2};
+    return before.node < 0;
   }
   const auto across = [&](int node) { return x.segment<2>(Rod::position(node)).cwiseAbs(); };
   if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
@@ -236,7 +243,7 @@ void RodModel::set_equations() {
   }
   if (pin_.node >= 0) {
     held[Rod::position(pin_.node) + pin_.axis] = true;
-    held[Rod::position(middle_node()) + 2] = determinant_ != 1;
+    held[Rod::position(middle_node()) + 2] = determinant_ != 1 || pin_.axis == 2;
   }
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
@@ -586,27 +593,22 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
 
 RodState RodModel::state() const {
   const Accepted& now = accepted_.back();
-  RodState state;
+  RodState state = seen(rod_, now.x, source_, effects_.contact);
   state.ebar = now.ebar;
-  state.nodes = nodes_of(rod_, now.x);
+  for (double& angle : state.twist_angle) angle -= now.x[rod_.angle(0)];
   // Both ends of a symmetric rod turn alike: seen from the start, the rod turns as a whole.
   if (symmetry_ && parameters_.twist)
     for (Vector3& p : state.nodes)
       p = Eigen::AngleAxisd(-now.x[rod_.angle(0)], Vector3::UnitZ()) * p;
-  state.s = rod_.arc_length();
-  state.curvature = curvature(rod_, now.x);
-  state.stretch = stretch(rod_, now.x);
-  if (parameters_.twist) {
-    state.twist_angle = twist_angles(rod_, source_, now.x);
-    for (double& angle : state.twist_angle) angle -= now.x[rod_.angle(0)];
-    state.twist = twist_rate(rod_, state.twist_angle);
-  }
-  if (effects_.contact) state.contact_force = contact_force(rod_, effects_.contact->points(now.x));
   state.tension = tension_;
-  state.writhe = writhe(state.nodes);
-  state.determinant = knot_determinant(state.nodes);
   state.energy_by_effect = energy_by_effect_;
   return state;
+}
+
+TiedRod RodModel::tied() const {
+  TiedRod tied{rod_, {accepted_.back().x, source_, history_.memory}, {}, dissipated_, tied_turn_};
+  if (effects_.contact) tied.contact = effects_.contact->law();
+  return tied;
 }
 
 std::map<std::string, double> RodModel::seconds() const {
@@ -621,6 +623,8 @@ int RodModel::unknowns() const { return equations_->unknowns.size(); }
 std::vector<std::string> RodModel::effect_names() const {
   std::vector<std::string> names;
   for (const auto& effect : effects_.list) names.emplace_back(effect->name());
+  if (parameters_.inertia) names.emplace_back("inertia");
+  if (parameters_.damping > 0) names.emplace_back("damping");
   return names;
 }
 

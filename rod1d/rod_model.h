@@ -9,6 +9,7 @@
 #include "rod1d/effects.h"
 #include "rod1d/grip.h"
 #include "rod1d/run_rod.h"
+#include "rod1d/timed_rod.h"
 #include "rod1d/two_fold.h"
 
 namespace bight::rod1d {
@@ -37,6 +38,9 @@ class RodModel final : public PathModel {
 
   /// The newest accepted state in full.
   RodState state() const;
+
+  /// What it is set in motion from.
+  TiedRod tied() const;
 
   int unknowns() const;
   /// Wall seconds by phase of all solves so far.
@@ -95,7 +99,8 @@ class RodModel final : public PathModel {
   EffectList halves_;  ///< of a symmetric rod: the same, summed over one half and its image
   std::unique_ptr<Equations> equations_;
   struct Pin {
-    int node = -1, axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius
+    int node = -1,
+        axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius; 2 along the rod
   };
   Pin pin_;
   double stiffness_ = 0;             ///< of contact, where the next solve begins

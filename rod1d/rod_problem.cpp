@@ -74,6 +74,11 @@ NewtonResult RodProblem::solve(int max_iterations) {
   return result;
 }
 
+std::unique_ptr<RodMotion> RodProblem::release(const Vector& velocity,
+                                               const MotionParameters& parameters) {
+  return std::make_unique<RodMotion>(rod_, effects_, source_, held_, parameters, x_, velocity);
+}
+
 bool RodProblem::stable() {
   const Unknowns free = unknowns();
   Assembler assembler(free, effects_);

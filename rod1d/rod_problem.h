@@ -3,6 +3,7 @@
 #include "mechanics/newton.h"
 #include "rod1d/effects.h"
 #include "rod1d/effects/load.h"
+#include "rod1d/rod_motion.h"
 
 namespace bight::rod1d {
 
@@ -42,6 +43,13 @@ class RodProblem {
   NewtonResult solve(int max_iterations = 300);
   /// Whether the energy rises in every direction from the present state.
   bool stable();
+
+  /// Motion from the present state, with these velocities by coordinates. The problem keeps its own
+  /// state, and must outlive the motion.
+  std::unique_ptr<RodMotion> release(const Vector& velocity, const MotionParameters& parameters);
+  std::unique_ptr<RodMotion> release(const MotionParameters& parameters) {
+    return release(Vector::Zero(x_.size()), parameters);
+  }
 
   const Rod& rod() const { return rod_; }
   Polyline nodes() const;

@@ -8,6 +8,7 @@
 #include "rod1d/knots.h"
 #include "rod1d/one_thread.h"
 #include "rod1d/rod_model.h"
+#include "rod1d/timed_rod.h"
 
 namespace bight::rod1d {
 
@@ -25,6 +26,8 @@ void check(const RodParameters& parameters) {
     throw std::invalid_argument("a finish end that may not turn needs the effect twist");
   if (parameters.finish_turns && parameters.finish_turn != 0)
     throw std::invalid_argument("only a clamped finish end can be turned");
+  if (parameters.damping > 0 && !parameters.inertia)
+    throw std::invalid_argument("damping needs the effect inertia");
   if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");
   if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
 }
@@ -155,11 +158,14 @@ RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) 
     result.steps.push_back(row);
     observer.on_step(row);
   };
+  std::unique_ptr<TimedRod> timed;
+  if (parameters.inertia) timed = std::make_unique<TimedRod>(model.tied(), parameters);
   path_observer.on_record = [&](double) {
-    result.states.push_back(model.state());
+    result.states.push_back(timed ? timed->state() : model.state());
     observer.on_record(result.states.back());
   };
-  result.outcome = follow(parameters.path, model, path_observer);
+  PathModel& followed = timed ? static_cast<PathModel&>(*timed) : model;
+  result.outcome = follow(parameters.path, followed, path_observer);
   result.seconds["path"] = seconds_since(tied);
   for (const auto& [phase, seconds] : model.seconds()) result.seconds[phase] = seconds;
   return result;

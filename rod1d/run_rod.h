@@ -19,8 +19,13 @@ struct RodParameters {
   bool finish_turns = true;  ///< finish end free to turn about the pulling axis
   double finish_turn = 0;    ///< turn given to a clamped finish end once the knot is tied [rad]
   bool contact = true;
-  bool twist = false;   ///< twist angles are unknowns
-  double friction = 0;  ///< Coulomb coefficient; 0: no friction effect
+  bool twist = false;                 ///< twist angles are unknowns
+  double friction = 0;                ///< Coulomb coefficient; 0: no friction effect
+  Vector3 gravity = Vector3::Zero();  ///< acceleration [E/(rho D)]; zero: no gravity effect
+  bool inertia = false;               ///< the path is followed in time, not through equilibria
+  double damping = 0;                 ///< in proportion to mass [1/(D sqrt(rho/E))]; needs inertia
+  double speed = 1e-5;                ///< of one end against the other, with inertia [sqrt(E/rho)]
+  double time_tolerance = 1e-4;       ///< error allowed in a time step [D]
   int segments = 340;
   /// Nodes follow the knot along the rod instead of staying at equal distances on it. What friction
   /// and twist remember of material points is carried along.

@@ -99,7 +99,7 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
       {small_scene + "[effects]\nfriction = -0.3\n", {":9", "effects.friction", "[0, 5]"}},
       {small_scene + "[ends]\nturn = \"90 degree\"\n", {":9", "ends.turn", "clamped"}},
-      {small_scene + "[effects]\ngravity = true\n", {":9", "effects.gravity", "no such effect"}},
+      {small_scene + "[effects]\nmagnetism = true\n", {":9", "effects.magnetism", "no such effect"}},
       {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},
       {small_scene + "[knot]\ncenterline = \"no.csv\"\n",
        {":9", "knot.centerline", "no such file"}},
@@ -158,4 +158,31 @@ TEST_CASE("every case that comes along is a valid scene without warnings") {
     ++cases;
   }
   CHECK(cases >= 2);
+}
+
+TEST_CASE("gravity, inertia and damping reach the rod in its own units") {
+  const TemporaryFolder folder;
+  const Scene scene = read_scene(
+      folder.write("knot.toml", small_scene),
+      {"fidelities=rod", "effects.gravity=9.81 m/s^2", "effects.gravity_direction=[0, 0, -0.5]",
+       "effects.inertia=true", "effects.damping=4 1/s", "path.speed=0.5 mm/s"});
+  const auto rod = rod_parameters(scene);
+  const double wave = std::sqrt(1.25e6 / 1160);  // m/s
+  CHECK(rod.inertia);
+  CHECK(rod.speed == Approx(0.5e-3 / wave));
+  CHECK(rod.damping == Approx(4 * 8.3e-3 / wave));
+  CHECK(rod.gravity.z() == Approx(-9.81 * 1160 * 8.3e-3 / 1.25e6));
+  CHECK(rod.gravity.head<2>().norm() == 0);
+  CHECK_FALSE(rod.follow_knot);
+}
+
+TEST_CASE("gravity, inertia and damping are refused where they are not simulated") {
+  const std::string solid = complaint(small_scene, {"effects.gravity=9.81"});
+  CHECK(solid.find("gravity cannot be simulated with the solid yet") != std::string::npos);
+  CHECK(complaint(small_scene, {"effects.inertia=true"}).find("with the solid yet") !=
+        std::string::npos);
+  const std::vector<std::string> rod = {"fidelities=rod", "effects.damping=1"};
+  CHECK(complaint(small_scene, rod).find("needs effects.inertia") != std::string::npos);
+  CHECK(complaint(small_scene, {"fidelities=rod", "effects.gravity_direction=[0, 0]"})
+            .find("three numbers") != std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "rod1d/effects/bend.h"
+#include "rod1d/effects/inertia.h"
 #include "rod1d/effects/stretch.h"
 #include "rod1d/overhand.h"
 #include "tests/derivatives.h"
@@ -24,6 +25,7 @@ struct EveryEffect {
     parameters.segments = 170;
     parameters.twist = true;
     parameters.friction = 0.3;
+    parameters.gravity = Vector3(0.01, -0.03, 0.02);
     rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
     if (curved) {
       rod.rest_curvature.assign(rod.nodes(), Vector2(0.06, -0.03));
@@ -165,6 +167,7 @@ TEST_CASE("a rigid motion changes no energy, and internal forces and torques bal
       moved[rod.angle(i)] += std::atan2(d.dot(carried.binormal(i)), d.dot(carried.normal[i]));
     }
     for (const auto& effect : every.effects.list) {
+      if (effect->name() == "gravity") continue;  // from outside
       if (effect->name() == "friction") every.rub(state.x);
       INFO(state.name << ", " << effect->name());
       const auto here = test::evaluate(*effect, state.x, Vector::Zero(state.x.size()));
@@ -186,6 +189,25 @@ TEST_CASE("a rigid motion changes no energy, and internal forces and torques bal
       CHECK(torque.norm() < (effect->name() == "friction" ? 1e-3 : 1e-11) * scale);
     }
   }
+}
+
+TEST_CASE("gravity draws the whole mass of the rod, and gains what it falls") {
+  EveryEffect every(false);
+  const Rod& rod = every.rod;
+  const Vector x = knotted(rod, 1);
+  Vector fallen = x;
+  for (int i = 0; i < rod.nodes(); ++i) fallen.segment<3>(3 * i) += Vector3(0, -2, 1);
+  const Vector3 weight = M_PI / 4 * 42.17 * every.parameters.gravity;
+  for (const auto& effect : every.effects.list) {
+    if (effect->name() != "gravity") continue;
+    const auto here = test::evaluate(*effect, x, Vector::Zero(x.size()));
+    const auto there = test::evaluate(*effect, fallen, Vector::Zero(x.size()));
+    Vector3 force = Vector3::Zero();
+    for (int i = 0; i < rod.nodes(); ++i) force -= here.gradient.segment<3>(3 * i);
+    CHECK((force - weight).norm() < 1e-12);
+    CHECK(here.energy - there.energy == Approx(weight.dot(Vector3(0, -2, 1))));
+  }
+  CHECK(lumped_mass(rod, true).sum() == Approx((3 * M_PI / 4 + M_PI / 32) * 42.17));
 }
 
 TEST_CASE("a folded or vanished segment is inadmissible") {

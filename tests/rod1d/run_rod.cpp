@@ -180,6 +180,27 @@ TEST_CASE("turning the clamped finish of a knot takes the torque that its twist 
   CHECK((energy[2] - energy[0]) / 0.2 == Approx(energy[1]).epsilon(0.002));
 }
 
+TEST_CASE("a knot hangs from its grips, which carry half its weight each") {
+  RodParameters parameters = tight_overhand(120, {28, 26});
+  parameters.gravity = Vector3(0, -9e-5, 0);
+  parameters.path.record = {26};
+  const RodResult heavy = run_rod(parameters);
+  REQUIRE(heavy.outcome.status == PathStatus::finished);
+  CHECK(heavy.effects == std::vector<std::string>{"stretch", "bend", "gravity", "contact"});
+  parameters.gravity.setZero();
+  const RodResult light = run_rod(parameters);
+  // Nothing holds the knot along the rod: the ends pull alike, and more than without weight.
+  CHECK(heavy.steps.back().reaction_mismatch < 1e-6);
+  CHECK(heavy.steps.back().tension > 1.05 * light.steps.back().tension);
+  const auto middle = [](const RodResult& result) {
+    Vector3 sum = Vector3::Zero();
+    for (const Vector3& node : result.states[0].nodes) sum += node;
+    return Vector3(sum / static_cast<double>(result.states[0].nodes.size()));
+  };
+  CHECK(middle(heavy).y() < -0.5);
+  CHECK(std::abs(middle(heavy).x()) < 1e-3);
+}
+
 TEST_CASE("what the rod cannot do is refused in words") {
   RodParameters parameters = tight_overhand(170, {30, 20});
   parameters.friction = 0.3;
@@ -191,6 +212,9 @@ TEST_CASE("what the rod cannot do is refused in words") {
   parameters.length = 20;
   CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("20 D"));
   parameters.length = 42.17;
+  parameters.damping = 0.1;
+  CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("inertia"));
+  parameters.damping = 0;
   parameters.segments = 4;
   CHECK_THROWS_WITH(run_rod(parameters), Catch::Contains("segments"));
 }

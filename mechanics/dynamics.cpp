@@ -1,0 +1,268 @@
+#include "mechanics/dynamics.h"
+
+#include <arkode/arkode_arkstep.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace bight {
+
+namespace {
+
+constexpr const char* method = "ARKODE_ESDIRK324L2SA_4_2_3";
+/// Newton in a stage stops at this part of the error allowed.
+constexpr double newton_share = 0.01;
+constexpr int newton_iterations = 8;
+/// Failures of one step before it is given up.
+constexpr int most_failures = 30;
+
+/// ARKODE's return values: try a shorter step, or give up.
+constexpr int fine = 0, shorter = 1;
+
+/// y = (unknown coordinates, their velocities).
+Eigen::Map<Vector> mapped(N_Vector y) { return {N_VGetArrayPointer(y), N_VGetLength_Serial(y)}; }
+
+}  // namespace
+
+struct Dynamics::Package {
+  MovingBody body;
+  DynamicsOptions options;
+  const Unknowns& unknowns;
+  int n;        ///< unknowns
+  Vector mass;  ///< by unknowns
+  Vector x, v;  ///< accepted, by coordinates
+  Vector y;     ///< what ARKODE works on
+  double time;
+  std::string reason;
+  SparseCholesky cholesky;
+  SymmetricMatrix matrix;
+  int analysed_pattern = 0, factorisations = 0, evaluations = 0;
+  Vector gradient;
+  double energy = 0;
+  bool measured = false;  ///< gradient and energy are those of x
+
+  SUNContext context = nullptr;
+  N_Vector vector = nullptr;
+  SUNLinearSolver solver = nullptr;
+  void* arkode = nullptr;
+
+  Package(const MovingBody& body, const DynamicsOptions& options, double time, const Vector& x,
+          const Vector& v)
+      : body(body),
+        options(options),
+        unknowns(body.assembler.unknowns()),
+        n(unknowns.size()),
+        mass(n),
+        x(x),
+        v(v),
+        y(2 * n),
+        time(time) {
+    if (!unknowns.turns().empty() || unknowns.has_images())
+      throw std::logic_error("dynamics knows no turns and no images");
+    for (int c = 0; c < unknowns.coordinates(); ++c) {
+      const int i = unknowns.index(c);
+      if (i < 0) continue;
+      mass[i] = body.mass[c], y[i] = x[c], y[n + i] = v[c];
+    }
+    place_held(time, this->x, this->v);
+    SUNContext_Create(nullptr, &context);
+    vector = N_VMake_Serial(2 * n, y.data(), context);
+    solver = SUNLinSolNewEmpty(context);
+    arkode = ARKStepCreate(nullptr, &rates, time, vector, context);
+    if (!vector || !solver || !arkode) throw std::bad_alloc();
+    solver->content = this;
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
+    solver->ops->solve = &solve;
+    ARKStepSetUserData(arkode, this);
+    ARKStepSetErrHandlerFn(
+        arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
+    ARKStepWFtolerances(arkode, &weights);
+    ARKStepSetLinearSolver(arkode, solver, nullptr);
+    ARKStepSetTableName(arkode, method, "ARKODE_ERK_NONE");
+    ARKStepSetNonlinConvCoef(arkode, newton_share);
+    ARKStepSetMaxNonlinIters(arkode, newton_iterations);
+    ARKStepSetMaxConvFails(arkode, most_failures);
+    ARKStepSetMaxErrTestFails(arkode, most_failures);
+    if (std::isfinite(options.max_step)) ARKStepSetMaxStep(arkode, options.max_step);
+  }
+  ~Package() {
+    ARKStepFree(&arkode);
+    SUNLinSolFreeEmpty(solver);
+    N_VDestroy(vector);
+    SUNContext_Free(&context);
+  }
+
+  void place_held(double t, Vector& at, Vector& velocity) const {
+    if (body.prescribe) body.prescribe(t, at, velocity);
+  }
+  void spread(const Eigen::Ref<const Vector>& values, Vector& by_coordinates) const {
+    for (int c = 0; c < unknowns.coordinates(); ++c)
+      if (unknowns.index(c) >= 0) by_coordinates[c] = values[unknowns.index(c)];
+  }
+  Vector state(double t, const Eigen::Ref<const Vector>& values) const {
+    Vector at = x, velocity = v;
+    place_held(t, at, velocity);
+    spread(values.head(n), at);
+    return at;
+  }
+
+  /// y' = (v, -alpha v - M^-1 dW/dx).
+  static int rates(sunrealtype t, N_Vector values, N_Vector rate, void* data) {
+    Package& my = *static_cast<Package*>(data);
+    const auto at = mapped(values);
+    if (!at.allFinite()) return shorter;
+    const Vector x = my.state(t, at);
+    if ((x - my.x).cwiseAbs().maxCoeff() > my.options.largest_move) return shorter;
+    Vector gradient;
+    my.body.assembler.refresh(x);
+    if (!std::isfinite(my.body.assembler.assemble(x, Order::gradient, gradient))) return shorter;
+    ++my.evaluations;
+    my.measured = false;
+    auto out = mapped(rate);
+    const auto velocity = at.tail(my.n);
+    out.head(my.n) = velocity;
+    out.tail(my.n) =
+        -my.body.damping * velocity - my.unknowns.reduce(x, gradient).cwiseQuotient(my.mass);
+    return fine;
+  }
+
+  static int weights(N_Vector values, N_Vector weight, void* data) {
+    const Package& my = *static_cast<Package*>(data);
+    const auto velocity = mapped(values).tail(my.n);
+    const double speed =
+        std::max(my.options.velocity_scale, my.n ? velocity.cwiseAbs().maxCoeff() : 0.0);
+    auto out = mapped(weight);
+    out.head(my.n).setConstant(1 / my.options.tolerance);
+    out.tail(my.n).setConstant(1 / (my.options.tolerance * speed));
+    return fine;
+  }
+
+  static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector b, sunrealtype) {
+    Package& my = *static_cast<Package*>(solver->content);
+    sunrealtype t = 0, gamma = 0;
+    N_Vector predicted, current, rate, constant;
+    void* unused;
+    ARKStepGetNonlinearSystemData(my.arkode, &t, &predicted, &current, &rate, &gamma, &constant,
+                                  &unused);
+    if (!my.factor(t, mapped(current), gamma)) return SUNLS_LUFACT_FAIL;
+    const auto right = mapped(b);
+    const Vector b_x = right.head(my.n);
+    Vector r = my.mass.cwiseProduct(right.tail(my.n)) - gamma * my.stiffness_times(b_x);
+    const Vector dv = my.cholesky.solve(r);
+    auto out = mapped(z);
+    out.tail(my.n) = dv;
+    out.head(my.n) = b_x + gamma * dv;
+    return dv.allFinite() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  }
+
+  bool factor(double t, const Eigen::Ref<const Vector>& values, double gamma) {
+    const Vector at = state(t, values);
+    Vector gradient;
+    Assembler& assembler = body.assembler;
+    assembler.refresh(at);
+    if (!std::isfinite(assembler.assemble(at, Order::hessian, gradient))) return false;
+    const SymmetricMatrix& K = assembler.hessian();
+    if (analysed_pattern != assembler.pattern_version()) {
+      cholesky.analyse(K, Ordering::minimum_degree);
+      analysed_pattern = assembler.pattern_version();
+      matrix = K;
+    }
+    for (size_t k = 0; k < K.value.size(); ++k) matrix.value[k] = gamma * gamma * K.value[k];
+    for (int j = 0; j < n; ++j) {
+      const auto begin = K.row.begin() + K.column_start[j];
+      const auto diagonal = std::lower_bound(begin, K.row.begin() + K.column_start[j + 1], j);
+      matrix.value[static_cast<size_t>(diagonal - K.row.begin())] +=
+          (1 + gamma * body.damping) * mass[j];
+    }
+    ++factorisations;
+    return cholesky.factor(matrix);
+  }
+
+  /// K times a vector of unknowns, from the lower triangle.
+  Vector stiffness_times(const Vector& u) const {
+    const SymmetricMatrix& K = body.assembler.hessian();
+    Vector product = Vector::Zero(n);
+    for (int j = 0; j < n; ++j)
+      for (int k = K.column_start[j]; k < K.column_start[j + 1]; ++k) {
+        const int i = K.row[k];
+        if (i < j) continue;
+        product[i] += K.value[k] * u[j];
+        if (i > j) product[j] += K.value[k] * u[i];
+      }
+    return product;
+  }
+
+  void measure() {
+    if (measured) return;
+    body.assembler.refresh(x);
+    energy = body.assembler.assemble(x, Order::gradient, gradient);
+    measured = true;
+  }
+};
+
+Dynamics::Dynamics(const MovingBody& body, const DynamicsOptions& options, double time,
+                   const Vector& x, const Vector& v)
+    : package_(std::make_unique<Package>(body, options, time, x, v)) {}
+
+Dynamics::~Dynamics() = default;
+
+bool Dynamics::step(double last) {
+  Package& my = *package_;
+  ARKStepSetStopTime(my.arkode, last);
+  double t = my.time;
+  const int status = ARKStepEvolve(my.arkode, last, my.vector, &t, ARK_ONE_STEP);
+  my.measured = false;
+  if (status < 0) {
+    my.reason = status == ARK_ERR_FAILURE ? "the error allowed cannot be kept"
+                : status == ARK_CONV_FAILURE
+                    ? "a time step does not converge, however short"
+                    : std::string("time integration stopped: ") + ARKStepGetReturnFlagName(status);
+    return false;
+  }
+  my.time = t;
+  my.place_held(t, my.x, my.v);
+  my.spread(my.y.head(my.n), my.x);
+  my.spread(my.y.tail(my.n), my.v);
+  return true;
+}
+
+void Dynamics::forces_changed() {
+  package_->measured = false;
+  ARKStepReset(package_->arkode, package_->time, package_->vector);
+}
+
+double Dynamics::time() const { return package_->time; }
+const Vector& Dynamics::x() const { return package_->x; }
+const Vector& Dynamics::v() const { return package_->v; }
+const std::string& Dynamics::reason() const { return package_->reason; }
+
+const Vector& Dynamics::gradient() {
+  package_->measure();
+  return package_->gradient;
+}
+double Dynamics::potential_energy() {
+  package_->measure();
+  return package_->energy;
+}
+double Dynamics::kinetic_energy() const {
+  const Package& my = *package_;
+  return 0.5 * my.v.cwiseAbs2().dot(my.body.mass);
+}
+
+int Dynamics::steps() const {
+  long count = 0;
+  ARKStepGetNumSteps(package_->arkode, &count);
+  return static_cast<int>(count);
+}
+int Dynamics::iterations() const {
+  long count = 0;
+  ARKStepGetNumNonlinSolvIters(package_->arkode, &count);
+  return static_cast<int>(count);
+}
+int Dynamics::factorisations() const { return package_->factorisations; }
+
+}  // namespace bight

@@ -1,0 +1,102 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "rod1d/rod_problem.h"
+
+using namespace bight;
+using namespace bight::rod1d;
+
+namespace {
+
+/// A rod of unit length, bending stiffness and mass along z, hardly extensible, clamped in the
+/// middle of its first segment.
+struct Cantilever {
+  static Rod rod(int segments) {
+    Rod rod = uniform_rod(1, segments, 0.5);
+    rod.rest_length.assign(segments, 1 / (segments - 0.5));
+    rod.bending_stiffness = 1;
+    rod.stretching_stiffness = 1e6;
+    rod.mass_per_length = 1;
+    return rod;
+  }
+  static double place(int node, int segments) { return (node - 0.5) / (segments - 0.5); }
+  /// First mode of vibration, cos k cosh k = -1.
+  static double mode(double z) {
+    const double k = 1.8751040687, c = (std::cosh(k) + std::cos(k)) / (std::sinh(k) + std::sin(k));
+    z = std::max(z, 0.0);
+    return std::cosh(k * z) - std::cos(k * z) - c * (std::sinh(k * z) - std::sin(k * z));
+  }
+};
+
+struct Vibration {
+  double frequency, decay;  ///< angular frequency; rate of the envelope
+};
+
+/// Of the first mode, over some periods.
+Vibration vibration(int segments, double alpha, double tolerance) {
+  const double size = 1e-3;
+  // Every segment has its undeformed length: no axial waves to begin with.
+  const double h = 1 / (segments - 0.5);
+  Polyline line{Vector3(0, 0, -0.5 * h)};
+  for (int i = 1; i <= segments; ++i) {
+    const auto at = [&](int node) {
+      return size * Cantilever::mode(Cantilever::place(node, segments));
+    };
+    const double dx = i > 1 ? at(i) - at(i - 1) : 0;
+    line.push_back(line.back() + Vector3(dx, 0, std::sqrt(h * h - dx * dx)));
+  }
+  RodProblem problem(Cantilever::rod(segments), line, false);
+  problem.hold(0), problem.hold(1);
+  MotionParameters parameters;
+  parameters.damping.alpha = alpha;
+  parameters.options.tolerance = tolerance * size;
+  parameters.options.velocity_scale = 3.5;
+  const auto motion = problem.release(parameters);
+  const auto projection = [&](const Vector& values) {
+    double sum = 0;
+    for (int i = 2; i <= segments; ++i)
+      sum += (i == segments ? 0.5 : 1) * Cantilever::mode(Cantilever::place(i, segments)) *
+             values[Rod::position(i)];
+    return sum;
+  };
+  // Zero crossings downwards, each with the speed there.
+  std::vector<std::pair<double, double>> zeros;
+  double t0 = 0, q0 = projection(motion->x()), v0 = 0;
+  while (zeros.size() < 4) {
+    REQUIRE(motion->step(100));
+    const double t = motion->time(), q = projection(motion->x()),
+                 v = projection(motion->dynamics().v());
+    if (q0 > 0 && q <= 0) {
+      // Cubic through both states and speeds.
+      const double h = t - t0;
+      double low = 0, high = 1;
+      for (int k = 0; k < 60; ++k) {
+        const double u = 0.5 * (low + high), w = 1 - u;
+        const double value =
+            w * w * (1 + 2 * u) * q0 + u * u * (3 - 2 * u) * q + u * w * h * (w * v0 - u * v);
+        (value > 0 ? low : high) = u;
+      }
+      zeros.push_back({t0 + low * h, v0 + low * (v - v0)});
+    }
+    t0 = t, q0 = q, v0 = v;
+  }
+  const double time = zeros.back().first - zeros.front().first;
+  return {2 * M_PI * static_cast<double>(zeros.size() - 1) / time,
+          std::log(zeros.front().second / zeros.back().second) / time};
+}
+
+}  // namespace
+
+TEST_CASE("a cantilever vibrates with 3.516 sqrt(B/(rho A L^4)) and decays with alpha/2") {
+  const double exact = 3.5160152685;
+  const double coarse = vibration(10, 0, 1e-4).frequency / exact - 1;
+  const double fine = vibration(20, 0, 1e-4).frequency / exact - 1;
+  INFO("errors " << coarse << ", " << fine);
+  CHECK(std::abs(fine) < 2e-3);
+  CHECK(coarse / fine == Approx(4).epsilon(0.2));
+  const double alpha = 0.6;
+  const Vibration damped = vibration(20, alpha, 1e-4);
+  CHECK(damped.decay == Approx(0.5 * alpha).epsilon(0.01));
+  CHECK(damped.frequency == Approx(std::sqrt(exact * exact - 0.25 * alpha * alpha)).epsilon(2e-3));
+}
