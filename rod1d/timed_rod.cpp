@@ -26,7 +26,7 @@ TimedRod::TimedRod(const TiedRod& tied, const RodParameters& parameters)
     : parameters_(parameters),
       rod_(tied.rod),
       history_(tied.history),
-      tied.turn_(tied.angle),
+      tied_turn_(tied.turn),
       source_(tied.history.frames),
       effects_(make_effects(rod_, parameters_, source_)),
       ends_(parameters.path.waypoints, parameters.speed, rise_waves * parameters.length),
@@ -61,8 +61,9 @@ void TimedRod::move_grips(double time, Vector& x, Vector& v) const {
 /// Freezes the spots that rub at the state in which the next time step begins.
 void TimedRod::freeze() {
   effects_.contact->refresh(history_.x);
-  effects_.friction->set_spots(friction_spots(
-      rod_, rubbing_points(effects_.contact->points(history_.x)), history_.x, source_, history_));
+  effects_.friction->set_spots(
+      friction_spots(rod_, rubbing_points(rod_, effects_.contact->points(history_.x)), history_.x,
+                     source_, history_));
 }
 
 /// After a time step: contact stiffness and friction for the next one.
@@ -125,7 +126,7 @@ StepRow TimedRod::accept(const NewtonResult& result, double ebar) {
     effects_.contact->refresh(result.x);
     std::tie(row.contact_pairs, row.max_penetration) = effects_.contact->touching(result.x);
   }
-  if (parameters_.twist) row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied.turn_;
+  if (parameters_.twist) row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied_turn_;
   row.ebar_unstretched = ebar + polyline_length(nodes_of(rod_, result.x)) - parameters_.length;
   row.reaction_mismatch =
       std::abs(forces.start - forces.finish) / std::max(std::abs(row.tension), 1e-300);
