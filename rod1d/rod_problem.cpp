@@ -4,20 +4,42 @@
 
 namespace bight::rod1d {
 
+namespace {
+
+RodParameters parameters_of(bool twist, const RodProblem::Touch* touch) {
+  RodParameters parameters;
+  parameters.twist = twist;
+  parameters.contact = touch;
+  if (touch) parameters.friction = touch->friction;
+  return parameters;
+}
+
+/// Solves with friction frozen anew, at most, and the part of the friction forces that may still
+/// change.
+constexpr int max_passes = 60;
+constexpr double settled = 1e-3;
+
+}  // namespace
+
 RodProblem::RodProblem(Rod rod, const Polyline& nodes, bool twist)
+    : RodProblem(std::move(rod), nodes, twist, nullptr) {}
+
+RodProblem::RodProblem(Rod rod, const Polyline& nodes, bool twist, const Touch& touch)
+    : RodProblem(std::move(rod), nodes, twist || touch.friction > 0, &touch) {}
+
+RodProblem::RodProblem(Rod rod, const Polyline& nodes, bool twist, const Touch* touch)
     : rod_(std::move(rod)),
       twist_(twist || !rod_.straight()),
       x_(Vector::Zero(3 * rod_.nodes() + (twist_ ? rod_.segments() : 0))),
       held_(static_cast<size_t>(x_.size()), false) {
   for (int i = 0; i < rod_.nodes(); ++i) x_.segment<3>(Rod::position(i)) = nodes.at(i);
   if (twist_) source_ = twist_free_frames(rod_, x_);
-  RodParameters parameters;
-  parameters.contact = false;
-  parameters.twist = twist_;
-  effects_ = std::move(make_effects(rod_, parameters, source_).list);
+  effects_ = make_effects(rod_, parameters_of(twist_, touch), source_);
+  if (touch) effects_.contact->set_law(touch->law);
+  history_ = {x_, source_, {}};
   auto loads = std::make_unique<Load>();
   loads_ = loads.get();
-  effects_.push_back(std::move(loads));
+  effects_.list.push_back(std::move(loads));
 }
 
 void RodProblem::hold(int node) {
@@ -52,36 +74,77 @@ Unknowns RodProblem::unknowns() const {
   return Unknowns(blocks, static_cast<int>(x_.size()), held_);
 }
 
-NewtonResult RodProblem::solve(int max_iterations) {
-  const Unknowns free = unknowns();
-  Assembler assembler(free, effects_);
-  SparseCholesky cholesky;
-  System system{assembler, cholesky, Ordering::dissection,
-                [&](Vector& at, const Vector& dx) { free.advance(at, dx); }};
+NewtonResult RodProblem::minimise(System& system, const Vector& x, int max_iterations) {
   const double length = rod_.arc_length().back();
-  const double force = rod_.bending_stiffness / (length * length);
+  double force = std::max(rod_.bending_stiffness / (length * length), loads_->total());
+  if (effects_.contact) force = std::max(force, 1e-6 * rod_.stretching_stiffness);
   NewtonOptions options;
   options.max_iterations = max_iterations;
   options.energy_tolerance = 1e-12 * force * length;
   // The second part is the round-off of the stretching forces.
   options.force_tolerance = 1e-8 * force + 1e-12 * rod_.stretching_stiffness;
-  options.largest_move = 0.2 * length;
+  options.largest_move = effects_.contact ? std::min(0.5, 0.2 * length) : 0.2 * length;
   options.bound.first_rise = 1e-10 * force * length;
-  NewtonResult result = newton(system, x_, options);
+  return newton(system, x, options);
+}
+
+/// Freezes the spots that rub at x for the next solve.
+void RodProblem::freeze(const Vector& x) {
+  source_ = carried_frames(rod_, source_, x);
+  effects_.contact->refresh(x);
+  effects_.friction->set_spots(friction_spots(
+      rod_, rubbing_points(rod_, effects_.contact->points(x)), x, source_, history_));
+}
+
+NewtonResult RodProblem::solve(int max_iterations) {
+  const Unknowns free = unknowns();
+  Assembler assembler(free, effects_.list);
+  SparseCholesky cholesky;
+  System system{assembler, cholesky, Ordering::dissection,
+                [&](Vector& at, const Vector& dx) { free.advance(at, dx); }};
+  if (effects_.friction) freeze(x_);
+  NewtonResult result = minimise(system, x_, max_iterations);
+  for (int pass = 1; effects_.friction && result.ok(); ++pass) {
+    // What is out of balance when friction is frozen where the last solve ended?
+    freeze(result.x);
+    assembler.refresh(result.x);
+    assembler.assemble(result.x, Order::gradient, result.gradient);
+    if (free.reduce(result.x, result.gradient).cwiseAbs().sum() <=
+        settled * effects_.friction->normal_force())
+      break;
+    if (pass == max_passes) {
+      result.status = NewtonStatus::too_many_iterations;
+      result.reason = "friction does not settle";
+      return result;
+    }
+    const int iterations = result.iterations;
+    result = minimise(system, result.x, max_iterations);
+    result.iterations += iterations;
+  }
   if (!result.ok()) return result;
   x_ = result.x;
   if (twist_) source_ = carried_frames(rod_, source_, x_);
+  if (effects_.friction) {
+    dissipated_ += effects_.friction->dissipated(x_);
+    history_ = {x_, source_, effects_.friction->memory(x_)};
+  }
   return result;
+}
+
+double RodProblem::overlap() {
+  if (!effects_.contact) return 0;
+  effects_.contact->refresh(x_);
+  return effects_.contact->touching(x_).second;
 }
 
 std::unique_ptr<RodMotion> RodProblem::release(const Vector& velocity,
                                                const MotionParameters& parameters) {
-  return std::make_unique<RodMotion>(rod_, effects_, source_, held_, parameters, x_, velocity);
+  return std::make_unique<RodMotion>(rod_, effects_.list, source_, held_, parameters, x_, velocity);
 }
 
 bool RodProblem::stable() {
   const Unknowns free = unknowns();
-  Assembler assembler(free, effects_);
+  Assembler assembler(free, effects_.list);
   Vector unused;
   assembler.refresh(x_);
   assembler.assemble(x_, Order::hessian, unused);
@@ -94,7 +157,7 @@ Polyline RodProblem::nodes() const { return nodes_of(rod_, x_); }
 
 Vector RodProblem::gradient() {
   const Unknowns free = unknowns();
-  Assembler assembler(free, effects_);
+  Assembler assembler(free, effects_.list);
   Vector gradient;
   assembler.refresh(x_);
   assembler.assemble(x_, Order::gradient, gradient);

@@ -15,12 +15,18 @@ namespace bight::rod1d {
 ///   const NewtonResult result = problem.solve();
 ///
 /// Lengths in D, forces in E D^2, or in any other consistent units: only the stiffnesses of the rod
-/// count. Contact and friction are left out.
+/// count. Where strands touch, lengths are in D.
 class RodProblem {
  public:
+  /// Contact between strands of the tube, and friction where its coefficient is not zero.
+  struct Touch {
+    ContactLaw law;
+    double friction = 0;
+  };
   /// `nodes`: the state to begin from. The material frames there are without twist; `twist`: the
   /// angles of the segments are unknowns.
   RodProblem(Rod rod, const Polyline& nodes, bool twist);
+  RodProblem(Rod rod, const Polyline& nodes, bool twist, const Touch& touch);
   // The effects look at the frames of this very object.
   RodProblem(const RodProblem&) = delete;
   RodProblem& operator=(const RodProblem&) = delete;
@@ -39,7 +45,8 @@ class RodProblem {
   /// Gives all segments a uniform twist, so that the last one has turned by `by` [rad].
   void twist_uniformly(double by);
 
-  /// Equilibrium near the present state, which it becomes when it was found.
+  /// Equilibrium near the present state, which it becomes when it was found. With friction it is
+  /// one step: what slid stays where it slid.
   NewtonResult solve(int max_iterations = 300);
   /// Whether the energy rises in every direction from the present state.
   bool stable();
@@ -58,15 +65,24 @@ class RodProblem {
   Vector3 reaction(int node);
   double torque(int segment);
 
+  /// Overlap of strands [D], zero or more, and energy lost to friction so far [E D^3].
+  double overlap();
+  double dissipated() const { return dissipated_; }
+
  private:
+  RodProblem(Rod rod, const Polyline& nodes, bool twist, const Touch* touch);
   Unknowns unknowns() const;
   Vector gradient();
+  NewtonResult minimise(System& system, const Vector& x, int max_iterations);
+  void freeze(const Vector& x);
 
   Rod rod_;
   bool twist_;
   Vector x_;
   Frames source_;
-  EffectList effects_;
+  RodEffects effects_;
+  FrictionHistory history_;  ///< the present state, where friction acts
+  double dissipated_ = 0;
   Load* loads_;
   std::vector<bool> held_;
 };

@@ -13,6 +13,12 @@ class Load final : public Effect {
     stencils_.add({at, at + 1, at + 2});
     forces_.push_back(force);
   }
+  /// Sum of their sizes [E D^2].
+  double total() const {
+    double sum = 0;
+    for (const Vector3& force : forces_) sum += force.norm();
+    return sum;
+  }
   std::string_view name() const override { return "load"; }
   int stencils() const override { return stencils_.size(); }
   std::span<const int> coordinates(int i) const override { return stencils_[i]; }

@@ -111,6 +111,26 @@ TEST_CASE("cantilever under a dead load follows the elastica") {
   CHECK(fine < coarse / 8 + 1e-5);  // second order; the table has five digits
 }
 
+TEST_CASE("cantilever under a = 7 follows the elastica by elliptic integrals") {
+  // Bisshopp and Drucker 1945: sqrt(a) = K(k) - F(phi, k), sin(phi) = 1/(k sqrt 2), and
+  // w/L = 1 - 2 (E(k) - E(phi, k))/sqrt(a), 1 - u/L = sqrt(2 (2 k^2 - 1)/a).
+  const double a = 7;
+  double low = std::sqrt(0.5), high = 1;
+  const auto phi = [](double k) { return std::asin(std::min(1.0, std::sqrt(0.5) / k)); };
+  for (int i = 0; i < 100; ++i) {
+    const double k = 0.5 * (low + high);
+    (std::comp_ellint_1(k) - std::ellint_1(k, phi(k)) < std::sqrt(a) ? low : high) = k;
+  }
+  const double k = low;
+  const Vector2 exact(1 - 2 * (std::comp_ellint_2(k) - std::ellint_2(k, phi(k))) / std::sqrt(a),
+                      1 - std::sqrt(2 * (2 * k * k - 1) / a));
+  const double coarse = (tip_under(a, 25) - exact).norm();
+  const double fine = (tip_under(a, 50) - exact).norm();
+  INFO("exact " << exact.transpose() << ": errors " << coarse << ", " << fine);
+  CHECK(fine < 1e-3);
+  CHECK(coarse / fine == Approx(4).epsilon(0.1));
+}
+
 TEST_CASE("end moments 2 pi B/L bend a rod to a full circle") {
   const auto energy_and_force = [](int segments) {
     Rod rod;

@@ -100,3 +100,38 @@ TEST_CASE("a cantilever vibrates with 3.516 sqrt(B/(rho A L^4)) and decays with 
   CHECK(damped.decay == Approx(0.5 * alpha).epsilon(0.01));
   CHECK(damped.frequency == Approx(std::sqrt(exact * exact - 0.25 * alpha * alpha)).epsilon(2e-3));
 }
+
+TEST_CASE("a swinging rod keeps its energy, and damping takes what is lost") {
+  // Clamped level, it falls under its weight through a large angle.
+  const auto swing = [](double alpha, double tolerance) {
+    const int segments = 12;
+    Polyline line;
+    for (int i = 0; i <= segments; ++i) line.push_back({0, 0, Cantilever::place(i, segments)});
+    RodProblem problem(Cantilever::rod(segments), line, false);
+    problem.hold(0), problem.hold(1);
+    problem.weigh(Vector3(-5, 0, 0));
+    MotionParameters parameters;
+    parameters.damping.alpha = alpha;
+    parameters.options.tolerance = tolerance;
+    parameters.options.velocity_scale = 1;
+    const auto motion = problem.release(parameters);
+    const double before = motion->energy();
+    double lowest = 0, fastest = 0;
+    for (const double time : {0.4, 0.8, 1.2, 1.6, 2.0}) {
+      REQUIRE(motion->go(time));
+      lowest = std::min(lowest, motion->node(segments).x());
+      fastest = std::max(fastest, motion->dynamics().kinetic_energy());
+    }
+    CHECK(lowest < -0.6);
+    CHECK(fastest > 0.3);
+    return before - motion->energy() - motion->dissipated();
+  };
+  const double scale = 5 * 0.6;  // weight times fall
+  const double coarse = swing(0, 1e-5) / scale, fine = swing(0, 1e-6) / scale;
+  const double damped = swing(0.5, 1e-6) / scale;
+  INFO("lost " << coarse << ", " << fine << ", damped " << damped);
+  CHECK(coarse > 0);  // the integrator is L-stable: it never gives energy
+  CHECK(std::abs(fine) < 1e-3);
+  CHECK(std::abs(fine) < 0.3 * coarse);
+  CHECK(std::abs(damped) < 1e-3);
+}
