@@ -28,6 +28,7 @@ Recorder::Recorder(const std::filesystem::path& folder, const Scene& scene, bool
 
 rod1d::RodObserver Recorder::watch_rod(const Path& path) {
   if (scene_.rod) rod_.emplace(folder_, "rod", scene_.scales());
+  if (scene_.rod && scene_.contact) make_folder(folder_ / "rod" / "contacts");
   progress.begin("rod", path);
   phases.enter("tie");
   rod1d::RodObserver observer;
@@ -72,6 +73,15 @@ void Recorder::write(const rod1d::RodState& state) {
   write_centerline(rod_->folder / "centerline" / (name + ".csv"), state.s, state.nodes,
                    state.curvature,
                    {{"contact_force", state.contact_force}, {"twist", state.twist}});
+  if (!state.contacts.empty()) {
+    std::vector<double> a, b, force;
+    for (const rod1d::ContactSpot& at : state.contacts) {
+      a.push_back(at.s_a), b.push_back(at.s_b);
+      force.push_back(normalised_force(at.force));
+    }
+    write_csv(rod_->folder / "contacts" / (name + ".csv"),
+              {{"s_a", a}, {"s_b", b}, {"force_normalised", force}});
+  }
   write_rod_vtu(rod_->folder / "vtu" / (name + ".vtu"), state, scene_.scales());
   rod_->series.add(state.ebar, "vtu/" + name + ".vtu");
 }

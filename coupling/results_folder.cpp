@@ -30,7 +30,7 @@ void clear(const fs::path& folder) {
   for (const char* fidelity : {"rod", "solid"}) {
     fs::remove(folder / fidelity / "force.csv");
     fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
-    for (const char* kind : {"centerline", "vtu"}) fs::remove_all(folder / fidelity / kind);
+    for (const char* kind : {"centerline", "vtu", "contacts"}) fs::remove_all(folder / fidelity / kind);
   }
 }
 

@@ -11,18 +11,18 @@ ForceCsv::ForceCsv(const std::filesystem::path& file, const Scales& scales)
       file_(file,
             "ebar,force_normalised,force_N,energy_J,dissipated_J,max_penetration,contact_pairs,"
             "newton_iterations,wall_s,increment,cutbacks,residual,reaction_mismatch,min_jacobian,"
-            "end_turn,snapped_J,ebar_unstretched,time_s,kinetic_J") {}
+            "end_turn,snapped_J,ebar_unstretched,time_s,kinetic_J,end_torque_Nm") {}
 
 void ForceCsv::step(const StepRow& row) {
   file_.line(fmt::format(
       "{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.9g},{},{},{:.9g},{:.9g},{},{:.9g},{:.9g},{:.9g},"
-      "{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}",
+      "{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}",
       row.ebar, normalised_force(row.tension), row.tension * scales_.force(),
       row.energy * scales_.energy(), row.dissipated * scales_.energy(), row.max_penetration,
       row.contact_pairs, row.newton_iterations, row.wall_s, row.increment, row.cutbacks,
       row.residual, row.reaction_mismatch, row.min_jacobian, row.end_turn,
       row.snapped * scales_.energy(), row.ebar_unstretched, row.time * scales_.time(),
-      row.kinetic * scales_.energy()));
+      row.kinetic * scales_.energy(), row.end_torque * scales_.energy()));
 }
 
 std::string state_name(double ebar) {

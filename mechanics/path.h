@@ -35,6 +35,7 @@ struct StepRow {
   double reaction_mismatch = 0;  ///< |T(start) + T(finish)| / T
   double min_jacobian = 1;       ///< smallest volume ratio of a cell (solid)
   double end_turn = 0;           ///< rotation of the finish end about the pulling axis [rad]
+  double end_torque = 0;         ///< on the finish end about the pulling axis [E D^3]
   double snapped = 0;  ///< energy lost by jumping to another branch of equilibria [E D^3]; 0: none
   double time = 0;     ///< since the path began, where there is inertia [D sqrt(rho/E)]
   double kinetic = 0;  ///< part of the stored energy that is kinetic [E D^3]

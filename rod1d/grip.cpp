@@ -28,7 +28,9 @@ void place_grips(const Rod& rod, double length, Vector& x) {
 GripForces grip_forces(const Rod& rod, const Vector& gradient) {
   const int last = rod.nodes() - 1;
   const auto pull = [&](int node) { return gradient[Rod::position(node) + 2]; };
-  return {-pull(0) - pull(1), pull(last - 1) + pull(last)};
+  const int angle = rod.angle(rod.segments() - 1);
+  return {-pull(0) - pull(1), pull(last - 1) + pull(last),
+          angle < gradient.size() ? gradient[angle] : 0.0};
 }
 
 }  // namespace bight::rod1d

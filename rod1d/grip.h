@@ -17,9 +17,11 @@ std::vector<bool> held_coordinates(const Rod& rod, bool twist, bool finish_turns
 /// Moves the gripped nodes to the end-to-end distance `length` [D].
 void place_grips(const Rod& rod, double length, Vector& x);
 
-/// Forces that pull the grips apart, from the gradient of the energy at an equilibrium [E D^2].
+/// Forces that pull the grips apart, from the gradient of the energy at an equilibrium [E D^2], and
+/// the torque about the pulling axis that turns the finish [E D^3], zero where it is free or twist
+/// is not simulated.
 struct GripForces {
-  double start = 0, finish = 0;
+  double start = 0, finish = 0, torque = 0;
   double tension() const { return 0.5 * (start + finish); }
 };
 GripForces grip_forces(const Rod& rod, const Vector& gradient);

@@ -574,6 +574,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     row.dissipated = dissipated_;
   }
   row.tension = tension_;
+  row.end_torque = forces.torque;
   row.snapped = snapped;
   row.ebar_unstretched = ebar + polyline_length(nodes_of(rod_, result.x)) - length_;
   row.residual = result.residual / force_scale_;

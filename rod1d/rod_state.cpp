@@ -1,6 +1,7 @@
 #include "rod1d/rod_state.h"
 
 #include "mechanics/knot_type.h"
+#include "rod1d/friction_spots.h"
 #include "rod1d/measure.h"
 
 namespace bight::rod1d {
@@ -15,7 +16,12 @@ RodState seen(const Rod& rod, const Vector& x, const Frames& frames, const Conta
     state.twist_angle = twist_angles(rod, frames, x);
     state.twist = twist_rate(rod, state.twist_angle);
   }
-  if (contact) state.contact_force = contact_force(rod, contact->points(x));
+  if (contact) {
+    const std::vector<ContactPoint> points = contact->points(x);
+    state.contact_force = contact_force(rod, points);
+    for (const RubbingPoint& at : rubbing_points(rod, points))
+      state.contacts.push_back({at.arc_a, at.arc_b, at.force});
+  }
   state.writhe = writhe(state.nodes);
   state.determinant = knot_determinant(state.nodes);
   return state;

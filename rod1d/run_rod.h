@@ -35,6 +35,12 @@ struct RodParameters {
   Path path;
 };
 
+/// A piece of a strand, a tenth of D long, that presses on another strand.
+struct ContactSpot {
+  double s_a, s_b;  ///< undeformed arc length of the places on both strands, s_a < s_b [D]
+  double force;     ///< normal force [E D^2]
+};
+
 /// A recorded equilibrium of the rod: what the sweep and the writers need.
 struct RodState {
   double ebar = 0;
@@ -45,6 +51,7 @@ struct RodState {
   std::vector<double> twist_angle;    ///< of the segments [rad]; empty without twist
   std::vector<double> twist;          ///< twist per undeformed length at the nodes [1/D]; or empty
   std::vector<double> contact_force;  ///< contact force per length at the nodes [E D]
+  std::vector<ContactSpot> contacts;  ///< what touches, ordered by s_a
   double tension = 0;                 ///< [E D^2]
   double writhe = 0;
   int determinant = 0;  ///< of the closed centerline: 1 unknot, 3 overhand, 5 figure-eight

@@ -116,6 +116,7 @@ StepRow TimedRod::accept(const NewtonResult& result, double ebar) {
   const GripForces forces = grip_forces(rod_, motion_->driving_force());
   StepRow row;
   row.tension = forces.tension();
+  row.end_torque = forces.torque;
   row.energy = motion_->energy();
   row.kinetic = motion_->dynamics().kinetic_energy();
   row.time = motion_->time();

@@ -115,7 +115,7 @@ class SolidPath : public PathModel {
       }
       if (!result.ok()) return result;
       const double last = tension;
-      tension = grip_.tension(mesh_, result.gradient).finish;
+      tension = grip_.tension(mesh_, result.x, result.gradient).finish;
       if (pass > 0 && std::abs(tension - last) < friction_settled * std::abs(tension) &&
           effects_.contact->max_penetration() <= parameters_.penetration)
         return result;
@@ -149,7 +149,7 @@ class SolidPath : public PathModel {
       whole_assembler_->refresh(newest());
       row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);
     }
-    const auto tension = grip_.tension(mesh_, gradient);
+    const auto tension = grip_.tension(mesh_, newest(), gradient);
     tension_ = std::max(std::abs(tension.finish), 1e-6);
     row.ebar = ebar;
     row.tension = 0.5 * (tension.finish + tension.start);
@@ -172,6 +172,7 @@ class SolidPath : public PathModel {
       if (symmetry_) effects_.friction->accept(newest());
       row.dissipated = friction.dissipated();
     }
+    row.end_torque = tension.torque;
     row.end_turn = grip_.turn(mesh_, newest());
     row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     return row;

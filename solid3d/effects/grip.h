@@ -80,12 +80,15 @@ struct Grip {
   /// start along -z. Equal at equilibrium.
   struct Tension {
     double start = 0, finish = 0;
+    double torque = 0;  ///< about z on the finish [E D^3]; zero where it may turn
   };
-  Tension tension(const Mesh& mesh, const Vector& gradient) const {
+  Tension tension(const Mesh& mesh, const Vector& x, const Vector& gradient) const {
     Tension t;
     for (int p = 0; p < mesh.points_per_layer(); ++p) {
       t.start -= gradient[3 * mesh.node(0, p) + 2];
-      t.finish += gradient[3 * mesh.node(mesh.layers() - 1, p) + 2];
+      const int finish = 3 * mesh.node(mesh.layers() - 1, p);
+      t.finish += gradient[finish + 2];
+      t.torque += x[finish] * gradient[finish + 1] - x[finish + 1] * gradient[finish];
     }
     return t;
   }

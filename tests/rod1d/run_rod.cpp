@@ -176,6 +176,18 @@ TEST_CASE("turning the clamped finish of a knot takes the torque that its twist 
     const std::vector<double>& rate = result.states[0].twist;
     for (size_t i = 1; i + 1 < rate.size(); ++i) CHECK(rate[i] == Approx(rate[1]).epsilon(1e-5));
     energy[k] = rate[1] * M_PI / 64 / 1.5;  // C times the twist per length
+    CHECK(result.steps.back().end_torque == Approx(energy[k]).epsilon(1e-5));
+    // Every piece of contact presses on two strands.
+    double pieces = 0, nodes = 0;
+    const RodState& state = result.states[0];
+    for (const ContactSpot& at : state.contacts) {
+      pieces += at.force;
+      CHECK(at.s_b - at.s_a > 1.5);
+    }
+    for (size_t i = 1; i + 1 < state.s.size(); ++i)
+      nodes += state.contact_force[i] * 0.5 * (state.s[i + 1] - state.s[i - 1]);
+    CHECK(pieces > 0);
+    CHECK(nodes == Approx(2 * pieces).epsilon(1e-6));
   }
   CHECK((energy[2] - energy[0]) / 0.2 == Approx(energy[1]).epsilon(0.002));
 }

@@ -26,6 +26,9 @@ TEST_CASE("grips move apart alike, and know their turns and their pull") {
   Vector gradient = Vector::Zero(x.size());
   gradient[2] = -1;
   gradient[3 * last + 2] = 2;
-  CHECK(grip.tension(mesh, gradient).start == 1);
-  CHECK(grip.tension(mesh, gradient).finish == 2);
+  x[3 * last] = 0.4, x[3 * last + 1] = 0.3;
+  gradient[3 * last] = -5, gradient[3 * last + 1] = 7;
+  CHECK(grip.tension(mesh, x, gradient).torque == Approx(0.4 * 7 + 0.3 * 5));
+  CHECK(grip.tension(mesh, x, gradient).start == 1);
+  CHECK(grip.tension(mesh, x, gradient).finish == 2);
 }
