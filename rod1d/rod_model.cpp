@@ -40,6 +40,10 @@ constexpr double snap_energy = 2e-3;
 constexpr int first_meshes = 3;
 /// Wished places are found from about this many nodes.
 constexpr int mesh_points = 500;
+/// Whiles of motion by which a failed solve is helped on, at most.
+constexpr int most_motions = 20;
+/// By which a state that weight would leave is turned first, so that it does [rad].
+constexpr double slight_roll = 0.05;
 /// Solves of one step with contact stiffness and friction taken anew, at most.
 constexpr int max_passes = 12;
 /// Share of the tension that further solves may still change when friction has settled.
@@ -216,7 +220,7 @@ bool RodModel::choose_pin(const Vector& x) {
     pin_ = {};
     return before.node >= 0;
   }
-  if (parameters_.gravity != Vector3::Zero()) {
+  if (weighs()) {
     pin_ = {middle_node(), 2};
     return before.node < 0;
   }
@@ -347,7 +351,52 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
       std::max(1e-7 * force_scale_, 4 * rod_.stretching_stiffness * round_off);
   options.largest_move = 1;
   options.bound.first_rise = 1e-8 * force_scale_;  // round-off of the energy
-  return newton(equations_->system, guess, options);
+  NewtonResult result = newton(equations_->system, guess, options);
+  // A knot that hangs rolls over where its centre of mass comes above the axis: too far for Newton,
+  // which may also find the balance in between.
+  for (int k = 0; k < most_motions && weighs() && !rubs_; ++k) {
+    if (result.ok() && stable(result.x)) break;
+    const int iterations = result.iterations, factorisations = result.factorisations;
+    result = newton(equations_->system, let_move(rolled(result.x, slight_roll)), options);
+    result.iterations += iterations, result.factorisations += factorisations;
+  }
+  return result;
+}
+
+/// Whether the energy rises in every direction from x.
+bool RodModel::stable(const Vector& x) {
+  Assembler& assembler = equations_->assembler;
+  Vector unused;
+  assembler.refresh(x);
+  assembler.assemble(x, Order::hessian, unused);
+  SparseCholesky cholesky;
+  cholesky.analyse(assembler.hessian(), Ordering::minimum_degree);
+  return cholesky.factor(assembler.hessian());
+}
+
+/// x turned about the axis [rad].
+Vector RodModel::rolled(Vector x, double angle) const {
+  const Matrix3 turn = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+  for (int i = 0; i < rod_.nodes(); ++i)
+    x.segment<3>(Rod::position(i)) = turn * Vector3(x.segment<3>(Rod::position(i)));
+  return x;
+}
+
+/// Where the rod gets to from x, at rest, in a while of well-damped motion with its ends held.
+Vector RodModel::let_move(const Vector& x) {
+  std::vector<bool> held(static_cast<size_t>(x.size()));
+  for (int c = 0; c < x.size(); ++c) held[c] = equations_->unknowns.index(c) < 0;
+  // Bending waves are as long as the rod at most.
+  const double slowest =
+      std::sqrt(rod_.bending_stiffness / rod_.mass_per_length) / (length_ * length_);
+  MotionParameters parameters;
+  parameters.damping.alpha = 20 * slowest;
+  parameters.options = {.tolerance = 1e-3,
+                        .velocity_scale = slowest * length_,
+                        .largest_move = effects_.contact ? 0.2 : 1.0};
+  RodMotion motion(rod_, effects_.list, source_, held, parameters, x, Vector::Zero(x.size()));
+  motion.go(0.5 / slowest);
+  return motion.x();
 }
 
 /// Freezes the spots that rub at x for the next solve, and counts twist from there.

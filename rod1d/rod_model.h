@@ -79,6 +79,10 @@ class RodModel final : public PathModel {
   GripForces measured_forces(const NewtonResult& result) const;
   double energy_lost(double ebar, double energy, double tension) const;
   NewtonResult solve_once(const Vector& guess);
+  bool stable(const Vector& x);
+  Vector rolled(Vector x, double angle) const;
+  Vector let_move(const Vector& x);
+  bool weighs() const { return parameters_.gravity != Vector3::Zero(); }
   NewtonResult solve_rubbing(const Vector& guess, bool thorough);
   NewtonResult solve_contact(Vector x);
 
