@@ -13,6 +13,7 @@
 #include "rod1d/grip.h"
 #include "rod1d/knot_mesh.h"
 #include "rod1d/measure.h"
+#include "rod1d/pin.h"
 #include "rod1d/polyline.h"
 #include "rod1d/remesh.h"
 #include "rod1d/rod_state.h"
@@ -107,10 +108,10 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
   if (parameters.twist && symmetry_) symmetry_->align(source_);
   history_ = {x, source_, {}};
-  halve();
-  choose_pin(x);
-  set_equations();
   accepted_.push_back({start_ebar_, rod_.arc_length(), x});
+  halve();
+  choose_pin();
+  set_equations();
 }
 
 /// The start cut into the rod's segments, whose undeformed lengths it fixes.
@@ -207,33 +208,27 @@ RodModel::~RodModel() = default;
 
 /// Two motions cost a round rod without friction nothing, or next to nothing, and would be left to
 /// round-off: turning about the axis as a whole, and sliding of the knot along the rod (its energy
-/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). The node that is farthest
-/// from the axis is held across its radius against the first; a turn does no work, so that reaction
-/// is zero. If the rod is knotted, the middle node is held along the axis against the second; that
-/// reaction is what the ends' tensions differ by, zero for a knot that is symmetric about it.
+/// varies by exp(-tail sqrt(T/B)), less than the discretisation's error). A node far from the axis
+/// is held at y = 0 against the first; a turn does no work, so that reaction is zero. If the rod is
+/// knotted, the middle node is held along the axis against the second; that reaction is what the
+/// ends' tensions differ by, zero for a knot that is symmetric about it.
 ///
-/// Weight makes the knot hang, so that only the second is needed. Friction holds it by itself: then
-/// no node is pinned.
-bool RodModel::choose_pin(const Vector& x) {
-  const Pin before = pin_;
-  if (rubs_ || symmetry_) {
-    pin_ = {};
-    return before.node >= 0;
-  }
-  if (weighs()) {
-    pin_ = {middle_node(), 2};
-    return before.node < 0;
-  }
-  const auto across = [&](int node) { return x.segment<2>(Rod::position(node)).cwiseAbs(); };
-  if (pin_.node >= 0 && across(pin_.node)[1 - pin_.axis] > 0.5 * across(pin_.node).norm() &&
-      across(pin_.node).norm() > 0.5)
+/// When the pinned node comes near the axis another one takes its place, and the states so far are
+/// turned until that one is at y = 0: a node that is held beside the axis at a fixed y would turn
+/// the knot as it shrinks. Weight makes the knot hang, so that only the second is needed. Friction
+/// or a symmetry holds it by itself: then no node is held.
+bool RodModel::choose_pin() {
+  const Vector& x = accepted_.back().x;
+  const int before = pin_;
+  const int farthest = rubs_ || symmetry_ || weighs() ? -1 : farthest_node(rod_, x);
+  if (before >= 0 && farthest >= 0 && radius_of(x, before) > 0.6 * radius_of(x, farthest))
     return false;
-  int farthest = 0;
-  for (int i = 0; i < rod_.nodes(); ++i)
-    if (across(i).norm() > across(farthest).norm() + 1e-9) farthest = i;
-  pin_ = {};
-  if (across(farthest).norm() > 0)
-    pin_ = {farthest, across(farthest).x() > across(farthest).y() ? 1 : 0};
+  pin_ = farthest;
+  if (pin_ < 0) return before >= 0;
+  const Matrix3 by = turn_to_x(accepted_.back().x, pin_);
+  for (Accepted& state : accepted_) turn(rod_, by, state.x);
+  turn(rod_, by, history_.x);
+  turn(by, source_), turn(by, history_.frames);
   return true;
 }
 
@@ -245,10 +240,9 @@ void RodModel::set_equations() {
     symmetry_->hold_middle(held);
     if (parameters_.twist && finish_turns_) held[rod_.angle(0)] = false;
   }
-  if (pin_.node >= 0) {
-    held[Rod::position(pin_.node) + pin_.axis] = true;
-    held[Rod::position(middle_node()) + 2] = determinant_ != 1 || pin_.axis == 2;
-  }
+  if (pin_ >= 0) held[Rod::position(pin_) + 1] = true;
+  if (weighs() ? !rubs_ && !symmetry_ : pin_ >= 0 && determinant_ != 1)
+    held[Rod::position(middle_node()) + 2] = true;
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
   for (int i = 0; i < angles(); ++i) blocks.push_back(rod_.angle(i));
@@ -259,7 +253,8 @@ void RodModel::set_equations() {
 
 void RodModel::let_rub() {
   rubs_ = effects_.friction != nullptr;
-  if (choose_pin(accepted_.back().x)) set_equations();
+  choose_pin();
+  set_equations();
 }
 
 void RodModel::set_tied() {
@@ -333,6 +328,7 @@ Vector RodModel::extrapolated(double ebar, size_t most) const {
       x = remeshed(arc, x, next_arc(ebar));
     }
   }
+  if (pin_ >= 0) turn(rod_, turn_to_x(x, pin_), x);
   place_grips(rod_, end_to_end(ebar), x);
   if (!finish_turns_) x[rod_.angle(rod_.segments() - 1)] = finish_angle_;
   if (!finish_turns_ && symmetry_) x[rod_.angle(0)] = -finish_angle_;
@@ -376,9 +372,7 @@ bool RodModel::stable(const Vector& x) {
 
 /// x turned about the axis [rad].
 Vector RodModel::rolled(Vector x, double angle) const {
-  const Matrix3 turn = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
-  for (int i = 0; i < rod_.nodes(); ++i)
-    x.segment<3>(Rod::position(i)) = turn * Vector3(x.segment<3>(Rod::position(i)));
+  turn(rod_, Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix(), x);
   return x;
 }
 
@@ -594,6 +588,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   const GripForces forces = measured_forces(result);
   const double snapped = energy_lost(ebar, result.energy, forces.tension());
   if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
+  if (snapped > 0) accepted_.clear();  // no polynomial goes through a snap
   accepted_.push_back({ebar, rod_.arc_length(), result.x});
   if (accepted_.size() > kept) accepted_.erase(accepted_.begin());
 
@@ -636,7 +631,7 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
     stiffness_ = effects_.contact->law().stiffness * tightening *
                  std::pow(std::clamp(row.max_penetration / aimed, 0.25, 4.0), 0.3);
   }
-  if (choose_pin(result.x)) set_equations();
+  if (choose_pin()) set_equations();
   row.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   return row;
 }

@@ -70,7 +70,7 @@ class RodModel final : public PathModel {
   int angles() const { return parameters_.twist ? rod_.segments() : 0; }
   int middle_node() const { return rod_.segments() / 2; }
   double end_to_end(double ebar) const { return length_ - ebar; }
-  bool choose_pin(const Vector& x);
+  bool choose_pin();
   void set_equations();
   Vector tangent(double ebar) const;
   void freeze(const Vector& x);
@@ -102,11 +102,7 @@ class RodModel final : public PathModel {
   RodEffects effects_;
   EffectList halves_;  ///< of a symmetric rod: the same, summed over one half and its image
   std::unique_ptr<Equations> equations_;
-  struct Pin {
-    int node = -1,
-        axis = 0;  ///< axis: 0 for x, 1 for y, the one across the radius; 2 along the rod
-  };
-  Pin pin_;
+  int pin_ = -1;                     ///< node held at y = 0; -1: none
   double stiffness_ = 0;             ///< of contact, where the next solve begins
   double force_scale_;               ///< tension expected [E D^2]
   std::vector<Accepted> accepted_;   ///< the newest few, newest last

@@ -69,6 +69,57 @@ TEST_CASE("a loose figure-eight stays one while it is pulled") {
   }
 }
 
+TEST_CASE("the paper's rod as a figure-eight, ebar 29 to 9: whole, smooth, no snap") {
+  RodParameters parameters = rod(42.17, 338, {29, 9}, 0.5);
+  parameters.knot = "figure-eight";
+  parameters.path.record = {29, 20, 15, 9};
+  const RodResult result = run_rod(parameters);
+  INFO(result.outcome.reason);
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  CHECK(result.outcome.cutbacks == 0);
+  CHECK(result.outcome.iterations < 12 * result.outcome.steps);
+  REQUIRE(result.states.size() == 4);
+  for (const RodState& state : result.states) {
+    INFO("ebar " << state.ebar);
+    CHECK(state.determinant == 5);
+    // Its own mirror image when turned end for end.
+    CHECK(std::abs(state.writhe) < 2e-3);
+    CHECK(smallest_distance(state.nodes, 3) > 0.98);
+  }
+  for (size_t i = 0; i < result.steps.size(); ++i) {
+    const StepRow& row = result.steps[i];
+    INFO("ebar " << row.ebar);
+    CHECK(row.max_penetration < 0.002);
+    CHECK(row.snapped == 0);
+    CHECK(row.reaction_mismatch < 1e-6);
+    if (i == 0) continue;
+    const StepRow& before = result.steps[i - 1];
+    CHECK(row.tension > before.tension);
+    const double work = -(row.energy - before.energy) / (row.ebar - before.ebar);
+    CHECK(work == Approx(0.5 * (row.tension + before.tension)).epsilon(0.005));
+  }
+  // With 676 segments: 0.0508, 0.1361, 0.2977, 0.5340.
+  CHECK(tbar(at(result, 20).tension) == Approx(0.0508).epsilon(0.005));
+  CHECK(tbar(at(result, 15).tension) == Approx(0.1361).epsilon(0.005));
+  CHECK(tbar(at(result, 12).tension) == Approx(0.2977).epsilon(0.005));
+  CHECK(tbar(at(result, 9).tension) == Approx(0.5340).epsilon(0.005));
+}
+
+TEST_CASE("the paper's rod as a figure-eight with mu = 0.32, ebar 29 to 9", "[.long]") {
+  RodParameters parameters = rod(42.17, 338, {29, 9}, 0.5);
+  parameters.knot = "figure-eight";
+  parameters.friction = 0.32;
+  parameters.twist = true;
+  parameters.path.record = {29, 20, 15, 9};
+  const RodResult result = run_rod(parameters);
+  INFO(result.outcome.reason);
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  for (const RodState& state : result.states) CHECK(state.determinant == 5);
+  for (const StepRow& row : result.steps) CHECK(row.max_penetration < 0.002);
+  CHECK(tbar(at(result, 20).tension) == Approx(0.0915).epsilon(0.02));
+  CHECK(tbar(at(result, 9).tension) == Approx(0.706).epsilon(0.02));
+}
+
 TEST_CASE("a rod too short for a loose knot is cut from a longer one") {
   const RodResult result = run_rod(rod(15.66, 160, {9.58, 9}, 0.5));
   INFO(result.outcome.reason);
