@@ -25,6 +25,8 @@ class Check {
   void knot() {
     if (values_.has("knot.type") && values_.has("knot.centerline"))
       return refuse("knot.centerline", "give either knot.type or knot.centerline, not both");
+    if (scene_.from_straight && values_.has("knot.centerline"))
+      return refuse("knot.start", "a centerline is tied already; only knot.type can be tied");
     try {
       knot_start(scene_);
     } catch (const InputError& error) {

@@ -59,6 +59,8 @@ const std::vector<Key>& all_keys() {
 
       {"knot.type", word, "", {}, {"overhand", "figure-eight"}, "",
        "overhand, unless knot.centerline is given", "Knot to be tied"},
+      {"knot.start", word, "", {}, {"loose", "straight"}, R"("loose")", "",
+       "Where knot.type comes from: laid out loosely, or tied by moves of a straight rod's ends"},
       {"knot.centerline", file, "", {}, {}, "", "none: knot.type is tied",
        "Tied start instead of knot.type: CSV x,y,z in metres, or rows of x y z theta"},
 

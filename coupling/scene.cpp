@@ -84,6 +84,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.density = values.number("material.density");
   scene.bulk_to_shear = values.number("material.bulk_to_shear");
   scene.knot = values.word("knot.type");
+  scene.from_straight = values.word("knot.start") == "straight";
   scene.centerline = values.word("knot.centerline");
   scene.finish_turns = values.word("ends.finish") == "free-twist";
   scene.finish_turn = values.number("ends.turn");
@@ -141,6 +142,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.length = scene.slenderness();
   rod.poissons_ratio = scene.poissons_ratio;
   rod.knot = scene.knot;
+  rod.from_straight = scene.from_straight;
   rod.start = knot_start(scene);
   rod.finish_turns = scene.finish_turns;
   rod.finish_turn = scene.finish_turn;

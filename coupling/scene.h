@@ -20,6 +20,7 @@ struct Scene {
   double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5, bulk_to_shear = 1000;
   double density = 0;
   std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
+  bool from_straight = false;        ///< that knot is tied from a straight rod
   std::filesystem::path centerline;  ///< file with the tied start; empty with a knot
   bool finish_turns = true, contact = true, twist = false, symmetry = true, rod_symmetry = true;
   double finish_turn = 0;  ///< of a clamped finish end of the rod [rad]

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mechanics/knot_type.h"
 #include "rod1d/knots.h"
 #include "rod1d/one_thread.h"
+#include "rod1d/polyline.h"
 #include "rod1d/rod_model.h"
+#include "rod1d/tie.h"
 #include "rod1d/timed_rod.h"
 
 namespace bight::rod1d {
@@ -33,6 +36,7 @@ void check(const RodParameters& parameters) {
 }
 
 constexpr double start_points = 10;  ///< of a start, per diameter
+constexpr double start_step = 0.02;  ///< on the way from the start to the path, part of its ebar
 /// Of a longer rod, beside its loose knot: no loop can slip over an end [D].
 constexpr double spare_tails = 45;
 constexpr int spare_segments = 340;   ///< of a longer rod
@@ -54,22 +58,45 @@ Polyline cut_to(const RodState& state, double length) {
   return line;
 }
 
+/// The knot at about that ebar, laid out loosely or tied by moves of a straight rod.
+struct KnotStart {
+  const RodParameters& parameters;
+  const RodObserver& observer;
+  const Knot& knot = find_knot(parameters.knot);
+
+  /// The ebar at which a path can begin, nearest to `ebar`.
+  double nearest(double ebar) const {
+    return parameters.from_straight ? std::clamp(ebar, tightest_tie, loosest_tie)
+                                    : std::max(ebar, knot.loosest);
+  }
+  /// Throws std::invalid_argument for a rod that is too short.
+  Polyline line(double length, double ebar) const {
+    const int points = std::max(parameters.segments, static_cast<int>(start_points * length));
+    if (!parameters.from_straight) return knot.loose(length, ebar, points);
+    const Polyline line =
+        tied(tie_protocol(parameters.knot), length, ebar,
+             [&](std::string_view, const RodState& state) { observer.on_tie(state); });
+    if (knot_determinant(line) != knot.determinant)
+      throw std::runtime_error("the straight rod was tied to another knot than " +
+                               std::string(knot.name));
+    return resampled(line, points);
+  }
+};
+
 /// A start for a rod that is too short to be tied loosely: a longer one is tied and pulled, then
 /// its tails are cut.
-Polyline cut_from_longer(const RodParameters& parameters, const Knot& knot,
-                         const RodObserver& observer) {
-  const double ebar = parameters.path.waypoints.front(), loosest = std::max(knot.loosest, ebar);
+Polyline cut_from_longer(const RodParameters& parameters, const KnotStart& start) {
+  const double ebar = parameters.path.waypoints.front(), first = start.nearest(ebar);
   RodParameters longer;
-  longer.length = std::max(parameters.length, loosest + spare_tails);
+  longer.length = std::max(parameters.length, first + spare_tails);
   longer.poissons_ratio = parameters.poissons_ratio;
   longer.knot = parameters.knot;
   longer.segments = spare_segments;
-  longer.path.waypoints = {loosest, ebar};
+  longer.path.waypoints = {first, ebar};
   longer.path.max_step = 1;
-  const int points = static_cast<int>(start_points * longer.length);
-  RodModel model(longer, knot.loose(longer.length, loosest, points));
+  RodModel model(longer, start.line(longer.length, first));
   PathObserver silent;
-  silent.interrupted = observer.interrupted;
+  silent.interrupted = start.observer.interrupted;
   const PathOutcome outcome = follow(longer.path, model, silent);
   if (outcome.status != PathStatus::finished)
     throw std::runtime_error("the knot could not be pulled to ebar " + std::to_string(ebar) +
@@ -79,15 +106,14 @@ Polyline cut_from_longer(const RodParameters& parameters, const Knot& knot,
 
 Polyline start_of(const RodParameters& parameters, const RodObserver& observer) {
   if (!parameters.start.empty()) return parameters.start;
-  const Knot& knot = find_knot(parameters.knot);
+  const KnotStart start{parameters, observer};
   const double first = parameters.path.waypoints.front(), length = parameters.length;
-  const int points = std::max(parameters.segments, static_cast<int>(start_points * length));
   try {
-    return knot.loose(length, std::max(first, knot.loosest), points);
+    return start.line(length, start.nearest(first));
   } catch (const std::invalid_argument&) {
     if (length - first < shortest_reach) throw;
   }
-  return cut_from_longer(parameters, knot, observer);
+  return cut_from_longer(parameters, start);
 }
 
 /// Slack that is pulled through a knot with friction before the path begins, so that friction acts
@@ -107,6 +133,7 @@ double approach(const RodParameters& parameters) {
 PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObserver& observer) {
   Path path = parameters.path;
   path.waypoints = {model.start_ebar(), approach(parameters)};
+  path.max_step = std::max(path.max_step, start_step * model.start_ebar());
   path.record.clear();
   PathObserver silent;
   silent.interrupted = observer.interrupted;

@@ -15,6 +15,7 @@ struct RodParameters {
   double length = 42.17;          ///< L0 / D
   double poissons_ratio = 0.5;    ///< B/C = 1 + nu
   std::string knot = "overhand";  ///< to be tied: a name in knots.cpp
+  bool from_straight = false;     ///< tied by moves of a straight rod, not laid out loosely
   Polyline start;  ///< tied start instead: any centerline of about that length, ends along z
   bool finish_turns = true;  ///< finish end free to turn about the pulling axis
   double finish_turn = 0;    ///< turn given to a clamped finish end once the knot is tied [rad]
@@ -30,7 +31,7 @@ struct RodParameters {
   /// Nodes follow the knot along the rod instead of staying at equal distances on it. What friction
   /// and twist remember of material points is carried along.
   bool follow_knot = true;
-  bool symmetry = true;  ///< one half is simulated if the start has a two-fold axis
+  bool symmetry = true;        ///< one half is simulated if the start has a two-fold axis
   double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
 };
@@ -59,6 +60,9 @@ struct RodState {
 };
 
 struct RodObserver {
+  /// The straight rod and every increment of tying it. These are states of the rod that is tied,
+  /// which is shorter or longer than the one of the path where tails are added or cut off.
+  std::function<void(const RodState&)> on_tie = [](const RodState&) {};
   std::function<void(const StepRow&)> on_step = [](const StepRow&) {};
   std::function<void(const RodState&)> on_record = [](const RodState&) {};
   std::function<bool()> interrupted = [] { return false; };
