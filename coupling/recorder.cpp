@@ -48,15 +48,32 @@ rod1d::RodObserver Recorder::watch_rod(const Path& path) {
   return observer;
 }
 
-solid3d::SolidObserver Recorder::watch_solid(const solid3d::Mesh& mesh, const Path& path) {
+solid3d::SolidObserver Recorder::watch_solid(const solid3d::Mesh& mesh, const Path& path,
+                                             const std::optional<Checkpoint>& from) {
   solid_.emplace(folder_, "solid", scene_.scales());
   progress.begin("solid", path);
   phases.enter("seed");
-  solid3d::SolidObserver observer;
-  observer.on_step = [this](const StepRow& row) {
-    phases.enter("write");
+  const auto write_row = [this](const StepRow& row) {
     progress.step(row);
     solid_->force.step(row);
+    solid_rows.push_back(row);
+  };
+  if (from) {
+    for (const StepRow& row : from->rows) write_row(row);
+    solid_states = from->states;
+    for (const solid3d::SolidState& state : solid_states)
+      solid_->series.add(state.ebar, "vtu/" + solid_->next_name(state.ebar) + ".vtu");
+    progress.say(fmt::format("resumed at ebar {:.6g}", from->solid.progress.ebar));
+  }
+  solid3d::SolidObserver observer;
+  observer.on_step = [this, write_row](const StepRow& row) {
+    phases.enter("write");
+    write_row(row);
+    phases.enter("tighten");
+  };
+  observer.on_checkpoint = [this](const solid3d::SolidCheckpoint& at) {
+    phases.enter("write");
+    write_checkpoint(folder_, {at, solid_rows, solid_states});
     phases.enter("tighten");
   };
   observer.on_record = [this, &mesh](const solid3d::SolidState& state) {

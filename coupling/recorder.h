@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "coupling/checkpoint.h"
 #include "coupling/phases.h"
 #include "coupling/progress.h"
 #include "coupling/scene.h"
@@ -20,13 +21,16 @@ class Recorder {
 
   /// Observers to be given to the models; `path` is what each will follow.
   rod1d::RodObserver watch_rod(const Path& path);
-  solid3d::SolidObserver watch_solid(const solid3d::Mesh& mesh, const Path& path);
+  /// `from`: what was written up to there is written again, and the run goes on behind it.
+  solid3d::SolidObserver watch_solid(const solid3d::Mesh& mesh, const Path& path,
+                                     const std::optional<Checkpoint>& from);
 
   const std::filesystem::path& folder() const { return folder_; }
 
   Phases phases;
   Progress progress;
   std::optional<rod1d::RodState> seed;            ///< the rod's state at the scene's seed_ebar
+  std::vector<StepRow> solid_rows;
   std::vector<solid3d::SolidState> solid_states;  ///< without their fields, for the summary
 
  private:

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/files.h"
 
@@ -27,10 +28,12 @@ bool finished(const fs::path& folder) {
 void clear(const fs::path& folder) {
   for (const char* name : {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "run.log"})
     fs::remove(folder / name);
+  remove_checkpoints(folder);
   for (const char* fidelity : {"rod", "solid"}) {
     fs::remove(folder / fidelity / "force.csv");
     fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
-    for (const char* kind : {"centerline", "vtu", "contacts"}) fs::remove_all(folder / fidelity / kind);
+    for (const char* kind : {"centerline", "vtu", "contacts"})
+      fs::remove_all(folder / fidelity / kind);
   }
 }
 
@@ -45,12 +48,15 @@ FolderState take_folder(const fs::path& folder, const Scene& scene, bool resume,
     return FolderState::fresh;
   }
   if (same_scene(folder, scene) && finished(folder)) return FolderState::finished;
+  if (resume && same_scene(folder, scene)) return FolderState::begun;
   if (resume)
     throw InputError(
-        fmt::format("{}: no checkpoint to go on from; --force starts over", folder.string()));
+        fmt::format("{}: no run of this very scene to go on with; --force starts over, --out names "
+                    "another folder",
+                    folder.string()));
   throw InputError(
       fmt::format("{}: the folder is not empty and holds no finished result of this "
-                  "scene; --force starts over, --out names another folder",
+                  "scene; --resume goes on, --force starts over, --out names another folder",
                   folder.string()));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "coupling/checkpoint.h"
 #include "coupling/compare.h"
 #include "coupling/compare_centerlines.h"
 #include "coupling/recorder.h"
@@ -22,7 +23,8 @@ ForceCurve curve(const std::string& name, const std::vector<StepRow>& steps) {
   return result;
 }
 
-solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder) {
+solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder,
+                                      const std::optional<Checkpoint>& from) {
   recorder.phases.enter("seed");
   const rod1d::RodState& seed = *recorder.seed;
   const solid3d::Mesh mesh = swept_mesh({.section_elements = scene.section_elements,
@@ -32,7 +34,11 @@ solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder) {
   const std::vector<Vector3> start = sweep(mesh, seed);
   solid3d::SolidParameters parameters = solid_parameters(scene);
   parameters.expected_tension = seed.tension;
-  return run_solid(mesh, start, seed.ebar, parameters, recorder.watch_solid(mesh, parameters.path));
+  solid3d::SolidResult result =
+      run_solid(mesh, start, seed.ebar, parameters,
+                recorder.watch_solid(mesh, parameters.path, from), from ? &from->solid : nullptr);
+  result.steps = recorder.solid_rows;
+  return result;
 }
 
 Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recorder& recorder) {
@@ -53,17 +59,21 @@ Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recor
 
 ExitStatus run(const Scene& scene, const RunOptions& options) {
   const rod1d::RodParameters rod = rod_parameters(scene);
-  if (take_folder(options.folder, scene, options.resume, options.force) == FolderState::finished) {
+  const FolderState state = take_folder(options.folder, scene, options.resume, options.force);
+  if (state == FolderState::finished) {
     fmt::print("{} holds the finished result of this very scene\n", options.folder.string());
     return done;
   }
   omp_set_num_threads(options.threads);
+  // The rod is done again: that takes seconds, and gives the same seed.
+  std::optional<Checkpoint> checkpoint;
+  if (state == FolderState::begun && scene.solid) checkpoint = newest_checkpoint(options.folder);
   Recorder recorder(options.folder, scene, options.quiet);
   RunReport report{scene, options.threads};
 
   report.rod = run_rod(rod, recorder.watch_rod(rod.path));
   if (scene.solid && recorder.seed && !report.interrupted())
-    report.solid = run_seeded_solid(scene, recorder);
+    report.solid = run_seeded_solid(scene, recorder, checkpoint);
   recorder.progress.end();
   report.comparison = compare_fidelities(scene, report, recorder);
   write_summary(report, recorder);

@@ -31,8 +31,9 @@ bool recorded(const Path& path, double ebar) {
 
 }  // namespace
 
-PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer) {
-  PathOutcome outcome;
+PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer,
+                   const PathProgress& from) {
+  PathOutcome outcome = from.so_far;
   const auto give_up = [&](PathStatus status, std::string reason) {
     outcome.status = status;
     outcome.reason = std::move(reason);
@@ -63,12 +64,13 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
     return result.iterations;
   };
 
-  double ebar = path.waypoints.front();
-  if (try_step(ebar, 0) < 0)
+  const bool begun = from.leg > 0;
+  double ebar = begun ? from.ebar : path.waypoints.front();
+  if (!begun && try_step(ebar, 0) < 0)
     return give_up(PathStatus::gave_up, "no equilibrium at the first ebar: " + cut_reason);
 
-  double step = path.max_step;
-  for (size_t w = 1; w < path.waypoints.size(); ++w)
+  double step = begun ? from.step : path.max_step;
+  for (size_t w = begun ? from.leg : 1; w < path.waypoints.size(); ++w)
     for (const double stop : stops(path, ebar, path.waypoints[w]))
       while (std::abs(stop - ebar) > same_ebar) {
         if (observer.interrupted()) return give_up(PathStatus::interrupted, "interrupted");
@@ -87,6 +89,7 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
         }
         ebar = target;
         if (iterations <= easy_iterations) step = std::min(path.max_step, growth * step);
+        observer.on_progress({w, ebar, step, outcome});
       }
   return outcome;
 }

@@ -50,6 +50,14 @@ struct PathOutcome {
   int steps = 0, iterations = 0, factorisations = 0, cutbacks = 0;
 };
 
+/// How far follow() has come: enough to go on from an accepted step as if it had not stopped.
+struct PathProgress {
+  size_t leg = 0;     ///< waypoint that is walked to; 0: not begun
+  double ebar = 0;    ///< of the newest accepted step
+  double step = 0;    ///< largest next one, in ebar
+  PathOutcome so_far;  ///< counts of steps, iterations, ...
+};
+
 /// What the path asks of a model. The state is one plain vector of coordinates.
 class PathModel {
  public:
@@ -66,11 +74,15 @@ class PathModel {
 struct PathObserver {
   std::function<void(const StepRow&)> on_step = [](const StepRow&) {};
   std::function<void(double ebar)> on_record = [](double) {};
+  /// After every step but the first, when its record was handed out.
+  std::function<void(const PathProgress&)> on_progress = [](const PathProgress&) {};
   std::function<bool()> interrupted = [] { return false; };
 };
 
 /// Follows the waypoints: predict, solve, accept; cut the step when a solve fails, grow it when
-/// solves are easy. Steps land exactly on waypoints and on record values.
-PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer);
+/// solves are easy. Steps land exactly on waypoints and on record values. `from`: where to go on
+/// from; the model is at that step.
+PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer,
+                   const PathProgress& from = {});
 
 }  // namespace bight

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "mechanics/knot_type.h"
+#include "solid3d/checkpoint.h"
 #include "solid3d/effects/grip.h"
 #include "solid3d/measure.h"
 #include "solid3d/section_motion.h"
@@ -35,7 +38,7 @@ using Clock = std::chrono::steady_clock;
 class SolidPath : public PathModel {
  public:
   SolidPath(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
-            const SolidParameters& parameters)
+            const SolidParameters& parameters, Clock::time_point began)
       : mesh_(mesh),
         parameters_(parameters),
         symmetry_(parameters.symmetry ? TwoFold::find(mesh, start) : std::nullopt),
@@ -48,7 +51,8 @@ class SolidPath : public PathModel {
                                  symmetry_ ? &*symmetry_ : nullptr)),
         assembler_(unknowns_, effects_.list),
         system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
-        tension_(parameters.expected_tension) {
+        tension_(parameters.expected_tension),
+        begin_(began) {
     if (symmetry_) {
       whole_effects_ = make_effects(mesh, parameters, internal_begin_);
       whole_assembler_.emplace(unknowns_, whole_effects_.list);
@@ -190,6 +194,28 @@ class SolidPath : public PathModel {
     s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
     if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
     return s;
+  }
+
+  /// The first state has no rate to go on with, but a tangent that is not saved.
+  bool can_be_saved() const { return history_.size() > 1; }
+
+  SolidCheckpoint saved() const {
+    SolidCheckpoint at;
+    at.history = history_;
+    at.tension = tension_;
+    at.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    if (effects_.contact) at.contact_stiffness = effects_.contact->law().stiffness;
+    if (effects_.friction) at.friction = effects_.friction->memory();
+    if (symmetry_ && effects_.friction) at.whole_friction = whole_effects_.friction->memory();
+    return at;
+  }
+
+  void restore(const SolidCheckpoint& at) {
+    history_ = at.history;
+    tension_ = at.tension;
+    if (effects_.contact) effects_.contact->law().stiffness = at.contact_stiffness;
+    if (effects_.friction) effects_.friction->remember(at.friction);
+    if (symmetry_ && effects_.friction) whole_effects_.friction->remember(at.whole_friction);
   }
 
   int unknowns() const { return unknowns_.size(); }
@@ -356,20 +382,62 @@ class SolidPath : public PathModel {
   std::vector<Station> history_;  ///< the last accepted states, newest last
   Vector gradient_;               ///< by coordinates, at the newest
   NewtonObserver observer_;
-  Clock::time_point begin_ = Clock::now();
+  Clock::time_point begin_;
+};
+
+/// The model that follow() sees. At every checkpoint it is built anew from what is saved, so that
+/// nothing that a resumed run would not have (lists of contact pairs, patterns, orderings) decides
+/// about the last digits of the steps to come.
+class RenewedPath final : public PathModel {
+ public:
+  using Build = std::function<std::unique_ptr<SolidPath>()>;
+  explicit RenewedPath(Build build) : build_(std::move(build)), model_(build_()) {}
+
+  Vector predict(double ebar) const override { return model_->predict(ebar); }
+  NewtonResult solve(const Vector& guess, double ebar) override {
+    return model_->solve(guess, ebar);
+  }
+  StepRow accept(const NewtonResult& result, double ebar) override {
+    return model_->accept(result, ebar);
+  }
+
+  SolidPath& model() { return *model_; }
+  void renew(const SolidCheckpoint& from) {
+    for (const auto& [phase, time] : model_->seconds()) seconds_[phase] += time;
+    model_ = build_();
+    model_->restore(from);
+  }
+  std::map<std::string, double> seconds() const {
+    std::map<std::string, double> sum = seconds_;
+    for (const auto& [phase, time] : model_->seconds()) sum[phase] += time;
+    return sum;
+  }
+
+ private:
+  Build build_;
+  std::unique_ptr<SolidPath> model_;
+  std::map<std::string, double> seconds_;  ///< of models that were replaced
 };
 
 }  // namespace
 
 SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
-                      const SolidParameters& parameters, const SolidObserver& observer) {
+                      const SolidParameters& parameters, const SolidObserver& observer,
+                      const SolidCheckpoint* from) {
   SolidResult result;
-  SolidPath model(mesh, start, start_ebar, parameters);
-  model.observe(observer.on_iteration);
-  result.unknowns = model.unknowns();
+  const std::chrono::duration<double> before(from ? from->wall_s : 0);
+  const auto began = Clock::now() - std::chrono::duration_cast<Clock::duration>(before);
+  RenewedPath path_model([&] {
+    auto model = std::make_unique<SolidPath>(mesh, start, start_ebar, parameters, began);
+    model->observe(observer.on_iteration);
+    return model;
+  });
+  if (from) path_model.model().restore(*from);
+  result.unknowns = path_model.model().unknowns();
   result.cells = static_cast<int>(mesh.cells.size());
-  result.symmetric = model.symmetric();
-  for (const auto& effect : model.effects()) result.effects.emplace_back(effect->name());
+  result.symmetric = path_model.model().symmetric();
+  for (const auto& effect : path_model.model().effects())
+    result.effects.emplace_back(effect->name());
 
   Path path = parameters.path;
   if (std::abs(path.waypoints.front() - start_ebar) > 1e-9)
@@ -381,11 +449,22 @@ SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, doubl
   };
   on_path.on_record = [&](double ebar) {
     result.recorded.push_back(ebar);
-    observer.on_record(model.state(ebar));
+    observer.on_record(path_model.model().state(ebar));
+  };
+  on_path.on_progress = [&](const PathProgress& progress) {
+    // The first as early as can be: relaxing the start is long.
+    if (parameters.checkpoint_every == 0 || progress.so_far.steps < 2 ||
+        (progress.so_far.steps - 2) % parameters.checkpoint_every != 0 ||
+        !path_model.model().can_be_saved())
+      return;
+    SolidCheckpoint at = path_model.model().saved();
+    at.progress = progress;
+    observer.on_checkpoint(at);
+    path_model.renew(at);
   };
   on_path.interrupted = observer.interrupted;
-  result.outcome = follow(path, model, on_path);
-  result.seconds = model.seconds();
+  result.outcome = follow(path, path_model, on_path, from ? from->progress : PathProgress{});
+  result.seconds = path_model.seconds();
   return result;
 }
 

@@ -22,6 +22,7 @@ struct SolidParameters {
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
+  int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0: none
   double expected_tension = 1e-3;  ///< rough T at the start [E D^2]: scale of the first tolerances
   Path path;
 };
@@ -45,9 +46,12 @@ struct SolidState {
   std::map<std::string, double> energy_by_effect;  ///< [E D^3]
 };
 
+struct SolidCheckpoint;
+
 struct SolidObserver {
   std::function<void(const StepRow&)> on_step = [](const StepRow&) {};
   std::function<void(const SolidState&)> on_record = [](const SolidState&) {};
+  std::function<void(const SolidCheckpoint&)> on_checkpoint = [](const SolidCheckpoint&) {};
   std::function<bool()> interrupted = [] { return false; };
   NewtonObserver on_iteration;  ///< for logs; may be empty
 };
@@ -64,8 +68,10 @@ struct SolidResult {
 };
 
 /// Relaxes the start (node positions of the swept mesh at start_ebar) to equilibrium, walks to the
-/// first waypoint, then follows the path.
+/// first waypoint, then follows the path. `from`: a checkpoint of the same mesh, start and parameters
+/// to go on from instead; the steps of the result are those from there on.
 SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
-                      const SolidParameters& parameters, const SolidObserver& observer = {});
+                      const SolidParameters& parameters, const SolidObserver& observer = {},
+                      const SolidCheckpoint* from = nullptr);
 
 }  // namespace bight::solid3d

@@ -31,8 +31,8 @@ void Friction::freeze(const Vector& x, const Vector& start) {
     spot.facing = contact_.surface().weights(sample.facing.x(), sample.facing.y());
     spot.coordinates = contact_.stencil(sample);
     spot.tangents = tangents(x, spot.own);
-    const auto found = memory_.find(sample.id);
-    spot.before = (found == memory_.end() ? Vector2(Vector2::Zero()) : found->second) -
+    const auto found = memory_.elastic_slip.find(sample.id);
+    spot.before = (found == memory_.elastic_slip.end() ? Vector2(Vector2::Zero()) : found->second) -
                   tangents(start, spot.own).transpose() * apart(start, spot);
     spots_.push_back(spot);
   }
@@ -58,12 +58,13 @@ void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) c
 }
 
 void Friction::accept(const Vector& x) {
-  memory_.clear();
+  memory_.elastic_slip.clear();
   for (const Spot& spot : spots_) {
     const Vector2 s = slip(x, spot);
     const double size = s.norm();
-    dissipated_ += law(spot).dissipated(size);
-    memory_[spot.sample] = law(spot).slides(size) ? Vector2(s * (largest_elastic_slip / size)) : s;
+    memory_.dissipated += law(spot).dissipated(size);
+    memory_.elastic_slip[spot.sample] =
+        law(spot).slides(size) ? Vector2(s * (largest_elastic_slip / size)) : s;
   }
 }
 

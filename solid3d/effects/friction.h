@@ -9,6 +9,12 @@
 
 namespace bight::solid3d {
 
+/// What friction remembers of accepted steps.
+struct FrictionMemory {
+  std::map<int, Vector2> elastic_slip;  ///< by contact sample, in its tangents [D]
+  double dissipated = 0;                ///< by all accepted steps [E D^3]
+};
+
 /// Coulomb friction with stick and slip of the surface, at the samples of contact. In one step a
 /// sample's slip against the material point that faces it is
 ///
@@ -36,9 +42,12 @@ class Friction final : public Effect {
   /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
   void accept(const Vector& x);
 
-  double stored(const Vector& x) const;              ///< elastic energy of sticking [E D^3]
-  double dissipated() const { return dissipated_; }  ///< by all accepted steps [E D^3]
-  double sliding_share(const Vector& x) const;       ///< of the normal force, where spots slide
+  const FrictionMemory& memory() const { return memory_; }
+  void remember(FrictionMemory memory) { memory_ = std::move(memory); }
+
+  double stored(const Vector& x) const;                     ///< elastic energy of sticking [E D^3]
+  double dissipated() const { return memory_.dissipated; }  ///< by all accepted steps [E D^3]
+  double sliding_share(const Vector& x) const;  ///< of the normal force, where spots slide
 
  private:
   struct Spot {
@@ -55,9 +64,9 @@ class Friction final : public Effect {
   Vector2 slip(const Vector& x, const Spot& spot) const;
 
   const Contact& contact_;
-  double coefficient_, dissipated_ = 0;
+  double coefficient_;
   std::vector<Spot> spots_;
-  std::map<int, Vector2> memory_;  ///< elastic slip by sample, in its tangents
+  FrictionMemory memory_;
 };
 
 }  // namespace bight::solid3d

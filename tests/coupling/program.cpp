@@ -139,3 +139,37 @@ TEST_CASE("an interrupted run ends with 130 and leaves whole files") {
   CHECK(table.rows.size() < 1000);
   CHECK(text_of(out + "/summary.json").find("\"interrupted\"") != std::string::npos);
 }
+
+TEST_CASE("a killed run goes on from its checkpoint to the same curve") {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "knot.toml", small_scene_with("[30, 20]", "[20, 18]") +
+                       "[effects]\nfriction = 0.2\n[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\n");
+  REQUIRE(call(folder, "solid knot.toml --out whole --quiet").status == 0);
+  const std::string out = folder / "cut";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(BIGHT_PROGRAM, "bight", "solid", scene.c_str(), "--out", out.c_str(), "--quiet", nullptr);
+    _exit(127);
+  }
+  while (!std::filesystem::exists(out + "/checkpoint/solid_000002.h5") &&
+         waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(10000);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  REQUIRE_FALSE(std::filesystem::exists(out + "/summary.json"));
+  CHECK(call(folder, "solid knot.toml --out cut --quiet").status == 2);
+  REQUIRE(call(folder, "solid knot.toml --out cut --quiet --resume").status == 0);
+  CHECK(text_of(out + "/run.log").find("resumed at ebar") != std::string::npos);
+  const auto whole = bight::coupling::read_table(folder / "whole/solid/force.csv");
+  const auto cut = bight::coupling::read_table(folder / "cut/solid/force.csv");
+  REQUIRE(cut.rows.size() == whole.rows.size());
+  REQUIRE(cut.names == whole.names);
+  for (size_t i = 0; i < cut.rows.size(); ++i)
+    for (size_t k = 0; k < cut.names.size(); ++k)
+      if (cut.names[k] != "wall_s") {
+        INFO(cut.names[k] << " in row " << i);
+        CHECK(cut.rows[i][k] == whole.rows[i][k]);
+      }
+  CHECK(text_of(folder / "cut/solid/solid.pvd") == text_of(folder / "whole/solid/solid.pvd"));
+}

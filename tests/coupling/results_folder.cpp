@@ -36,10 +36,10 @@ TEST_CASE("the finished result of the very same scene is found again") {
   CHECK_THROWS_AS(take_folder(folder.path(), scene, false, false), InputError);
 }
 
-TEST_CASE("resuming without a checkpoint is refused") {
+TEST_CASE("resuming where no run of the scene has begun is refused") {
   const TemporaryFolder folder;
   folder.write("run.log", "");
-  CHECK_THROWS_WITH(take_folder(folder.path(), {}, true, false), Catch::Contains("no checkpoint"));
+  CHECK_THROWS_WITH(take_folder(folder.path(), {}, true, false), Catch::Contains("no run of this"));
 }
 
 TEST_CASE("starting over clears what bight writes and leaves the rest") {
