@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -28,6 +30,8 @@ constexpr size_t most_extrapolated = 4, kept = 12;
 constexpr int hard_iterations = 8;
 /// Steps in ebar below this are no steps.
 constexpr double same_ebar = 1e-9;
+/// Overlap of a start's strands, at most [D].
+constexpr double largest_start_overlap = 0.5;
 /// Share of the allowed overlap that the contact stiffness aims at.
 constexpr double aimed_share = 0.6;
 /// Points of a start that is to be meshed, per diameter and in all.
@@ -105,6 +109,7 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   Vector x = coordinates_of(rod_, line, angles());
   place_grips(rod_, end_to_end(start_ebar_), x);
   if (symmetry_) symmetry_->impose(x);
+  refuse_overlap(x);
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
   if (parameters.twist && symmetry_) symmetry_->align(source_);
   history_ = {x, source_, {}};
@@ -112,6 +117,18 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   halve();
   choose_pin();
   set_equations();
+}
+
+/// Strands nearer than half a diameter could be pushed out on either side of each other.
+void RodModel::refuse_overlap(const Vector& x) {
+  if (!effects_.contact) return;
+  effects_.contact->refresh(x);
+  const double overlap = effects_.contact->touching(x).second;
+  if (overlap > largest_start_overlap)
+    throw std::invalid_argument("strands of the start, cut into " +
+                                std::to_string(rod_.segments()) + " segments, overlap by " +
+                                std::to_string(overlap) +
+                                " D; which of them belongs on which side is not known");
 }
 
 /// The start cut into the rod's segments, whose undeformed lengths it fixes.

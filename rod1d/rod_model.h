@@ -71,6 +71,7 @@ class RodModel final : public PathModel {
   int middle_node() const { return rod_.segments() / 2; }
   double end_to_end(double ebar) const { return length_ - ebar; }
   bool choose_pin();
+  void refuse_overlap(const Vector& x);
   void set_equations();
   Vector tangent(double ebar) const;
   void freeze(const Vector& x);
