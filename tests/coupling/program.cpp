@@ -143,7 +143,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves whole files") {
 TEST_CASE("a killed run goes on from its checkpoint to the same curve") {
   const TemporaryFolder folder;
   const std::string scene = folder.write(
-      "knot.toml", small_scene_with("[30, 20]", "[20, 18]") +
+      "knot.toml", small_scene_with("[30, 20]", "[20, 19]") +
                        "[effects]\nfriction = 0.2\n[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\n");
   REQUIRE(call(folder, "solid knot.toml --out whole --quiet").status == 0);
   const std::string out = folder / "cut";
