@@ -118,8 +118,11 @@ class Check {
   }
 
   void effects() {
-    if (scene_.follow_knot && scene_.inertia)
-      refuse("rod1d.follow_knot", "inertia belongs to material points, which nodes must not leave");
+    if (scene_.follow_knot && (scene_.inertia || !scene_.naturally_straight()))
+      refuse("rod1d.follow_knot",
+             "inertia and natural shape belong to material points, which nodes must not leave");
+    if (!scene_.naturally_straight() && !scene_.twist)
+      refuse("effects.twist", "natural curvature and twist need the rod's twist");
     bool refused = false;  // what friction brings along is not to be blamed on the user
     for (const AskedEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {

@@ -12,6 +12,10 @@ std::vector<AskedEffect> asked_effects(const Scene& scene) {
   if (scene.friction > 0) effects.push_back({"friction", "effects.friction"});
   if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
   const bool rod_alone = !scene.solid;
+  if (scene.natural_curvature != 0)
+    effects.push_back({"natural curvature", "rod.natural_curvature", true, false, rod_alone});
+  if (scene.natural_twist != 0)
+    effects.push_back({"natural twist", "rod.natural_twist", true, false, rod_alone});
   if (scene.gravity != Vector3::Zero())
     effects.push_back({"gravity", "effects.gravity", true, false, rod_alone});
   if (scene.inertia) effects.push_back({"inertia", "effects.inertia", true, false, rod_alone});

@@ -44,6 +44,10 @@ const std::vector<Key>& all_keys() {
 
       {"rod.length", quantity, "m", above(0), {}, "", "required", "Undeformed length L0"},
       {"rod.diameter", quantity, "m", above(0), {}, "", "required", "Undeformed diameter D"},
+      {"rod.natural_curvature", quantity, "1/m", {-1e6, 1e6}, {}, "0", "",
+       "Of the free rod, alike everywhere; the rod alone, and with twist"},
+      {"rod.natural_twist", quantity, "rad/m", {-1e6, 1e6}, {}, "0", "",
+       "Of the free rod's material frames, about which natural_curvature turns along it: a helix"},
 
       {"material.model", word, "", {}, {"neo-hookean"}, R"("neo-hookean")", "",
        "Stored energy of the solid; the rod is linear in its strains"},
@@ -73,7 +77,7 @@ const std::vector<Key>& all_keys() {
       {"effects.contact", boolean, "", {}, {}, "true", "", "Strands keep each other outside"},
       {"effects.friction", number, "", {0, 5}, {}, "0", "", "Coulomb coefficient of the surface"},
       {"effects.twist", boolean, "", {}, {}, "",
-       "false for a frictionless rod with a free-twist end, else true",
+       "false for a frictionless, naturally straight rod with a free-twist end, else true",
        "The rod's twist angles are unknowns"},
       {"effects.gravity", quantity, "m/s^2", {0, 1e6}, {}, "0", "",
        "Acceleration of gravity, by which the rod's mass is drawn"},
@@ -97,7 +101,7 @@ const std::vector<Key>& all_keys() {
 
       {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter, even, at least 60, at most 400 if they follow the knot",
        "Segments of the centerline"},
-      {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without inertia",
+      {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without inertia and natural curvature or twist",
        "Nodes follow the knot along the rod, densest where strands are near each other"},
       {"rod1d.symmetry", boolean, "", {}, {}, "true", "",
        "Of a knot with a two-fold axis, simulate one half; the other is its image"},

@@ -35,14 +35,17 @@ void derive_defaults(Values& values) {
   const double nu = values.number("material.poissons_ratio");
   derive(values, "material.bulk_to_shear", nu == 0.5 ? 1000.0 : 2 * (1 + nu) / (3 * (1 - 2 * nu)));
   if (!values.has("knot.centerline")) derive(values, "knot.type", std::string("overhand"));
+  const bool straight =
+      values.number("rod.natural_curvature") == 0 && values.number("rod.natural_twist") == 0;
   derive(values, "effects.twist",
-         values.number("effects.friction") > 0 || values.word("ends.finish") == "clamped");
+         !straight || values.number("effects.friction") > 0 ||
+             values.word("ends.finish") == "clamped");
   const auto waypoints = values.get<std::vector<double>>("path.ebar");
   derive(values, "path.record", waypoints);
   derive(values, "solid3d.seed_ebar", waypoints.front());
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
-  derive(values, "rod1d.follow_knot", !values.get<bool>("effects.inertia"));
+  derive(values, "rod1d.follow_knot", straight && !values.get<bool>("effects.inertia"));
   const double most = values.get<bool>("rod1d.follow_knot") ? 400 : 1e5;
   derive(values, "rod1d.segments", std::clamp(2 * std::round(4 * slenderness), 60.0, most));
 }
@@ -81,6 +84,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.diameter = values.number("rod.diameter");
   scene.youngs_modulus = values.number("material.youngs_modulus");
   scene.poissons_ratio = values.number("material.poissons_ratio");
+  scene.natural_curvature = values.number("rod.natural_curvature");
+  scene.natural_twist = values.number("rod.natural_twist");
   scene.density = values.number("material.density");
   scene.bulk_to_shear = values.number("material.bulk_to_shear");
   scene.knot = values.word("knot.type");
@@ -141,6 +146,8 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod1d::RodParameters rod;
   rod.length = scene.slenderness();
   rod.poissons_ratio = scene.poissons_ratio;
+  rod.natural_curvature = scene.natural_curvature * scene.diameter;
+  rod.natural_twist = scene.natural_twist * scene.diameter;
   rod.knot = scene.knot;
   rod.from_straight = scene.from_straight;
   rod.start = knot_start(scene);

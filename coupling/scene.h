@@ -25,7 +25,8 @@ struct Scene {
   bool finish_turns = true, contact = true, twist = false, symmetry = true, rod_symmetry = true;
   double finish_turn = 0;  ///< of a clamped finish end of the rod [rad]
   double friction = 0;
-  Vector3 gravity = Vector3::Zero();  ///< acceleration [m/s^2]
+  double natural_curvature = 0, natural_twist = 0;  ///< of the free rod [1/m]
+  Vector3 gravity = Vector3::Zero();                ///< acceleration [m/s^2]
   bool inertia = false;
   double damping = 0;  ///< alpha [1/s]
   double speed = 0;    ///< of the moving end [m/s]
@@ -41,6 +42,7 @@ struct Scene {
   std::vector<std::string> warnings;  ///< allowed, but hardly meant
   std::string text;                   ///< the scene with every default and override filled in
 
+  bool naturally_straight() const { return natural_curvature == 0 && natural_twist == 0; }
   double slenderness() const { return length / diameter; }
   Scales scales() const { return {diameter, youngs_modulus, density}; }
 };

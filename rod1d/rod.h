@@ -55,4 +55,15 @@ inline Rod uniform_rod(double length, int segments, double poissons_ratio) {
   return rod;
 }
 
+/// Gives a rod the same curvature about d1, and the same twist, everywhere when free [1/D].
+inline void bend_naturally(Rod& rod, double curvature, double twist) {
+  if (curvature == 0 && twist == 0) return;
+  rod.rest_curvature.assign(rod.nodes(), Vector2::Zero());
+  rod.rest_twist.assign(rod.nodes(), 0.0);
+  for (int i = 1; i + 1 < rod.nodes(); ++i) {
+    rod.rest_curvature[i][0] = curvature * rod.voronoi_length(i);
+    rod.rest_twist[i] = twist * rod.voronoi_length(i);
+  }
+}
+
 }  // namespace bight::rod1d

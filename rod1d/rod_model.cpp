@@ -64,6 +64,12 @@ double loose_tension(const Rod& rod, double ebar) {
   return 2 * std::numbers::pi * std::numbers::pi * rod.bending_stiffness / (e * e);
 }
 
+Rod free_rod(const RodParameters& parameters) {
+  Rod rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
+  bend_naturally(rod, parameters.natural_curvature, parameters.natural_twist);
+  return rod;
+}
+
 Vector coordinates_of(const Rod& rod, const Polyline& nodes, int angles) {
   Vector x = Vector::Zero(3 * rod.nodes() + angles);
   for (int i = 0; i < rod.nodes(); ++i) x.segment<3>(Rod::position(i)) = nodes[i];
@@ -89,8 +95,9 @@ struct RodModel::Equations {
 
 RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
     : parameters_(parameters),
-      follows_(parameters.follow_knot && !parameters.inertia),
-      rod_(uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio)),
+      follows_(parameters.follow_knot && !parameters.inertia && parameters.natural_curvature == 0 &&
+               parameters.natural_twist == 0),
+      rod_(free_rod(parameters)),
       length_(parameters.length),
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
@@ -232,12 +239,13 @@ RodModel::~RodModel() = default;
 ///
 /// When the pinned node comes near the axis another one takes its place, and the states so far are
 /// turned until that one is at y = 0: a node that is held beside the axis at a fixed y would turn
-/// the knot as it shrinks. Weight makes the knot hang, so that only the second is needed. Friction
-/// or a symmetry holds it by itself: then no node is held.
+/// the knot as it shrinks. Weight makes the knot hang, and a rod that is curved when free is turned by
+/// its held start, so that only the second is needed. Friction or a symmetry holds it by itself: then
+/// no node is held.
 bool RodModel::choose_pin() {
   const Vector& x = accepted_.back().x;
   const int before = pin_;
-  const int farthest = rubs_ || symmetry_ || weighs() ? -1 : farthest_node(rod_, x);
+  const int farthest = rubs_ || symmetry_ || weighs() || !rod_.straight() ? -1 : farthest_node(rod_, x);
   if (before >= 0 && farthest >= 0 && radius_of(x, before) > 0.6 * radius_of(x, farthest))
     return false;
   pin_ = farthest;

@@ -29,6 +29,8 @@ void check(const RodParameters& parameters) {
     throw std::invalid_argument("a finish end that may not turn needs the effect twist");
   if (parameters.finish_turns && parameters.finish_turn != 0)
     throw std::invalid_argument("only a clamped finish end can be turned");
+  if ((parameters.natural_curvature != 0 || parameters.natural_twist != 0) && !parameters.twist)
+    throw std::invalid_argument("natural curvature and twist need the effect twist");
   if (parameters.damping > 0 && !parameters.inertia)
     throw std::invalid_argument("damping needs the effect inertia");
   if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");

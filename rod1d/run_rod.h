@@ -19,6 +19,8 @@ struct RodParameters {
   Polyline start;  ///< tied start instead: any centerline of about that length, ends along z
   bool finish_turns = true;  ///< finish end free to turn about the pulling axis
   double finish_turn = 0;    ///< turn given to a clamped finish end once the knot is tied [rad]
+  /// Of the free rod: curvature about the director d1, and twist [1/D]. Both need twist.
+  double natural_curvature = 0, natural_twist = 0;
   bool contact = true;
   bool twist = false;                 ///< twist angles are unknowns
   double friction = 0;                ///< Coulomb coefficient; 0: no friction effect

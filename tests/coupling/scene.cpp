@@ -99,7 +99,8 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene_with("ebar = [30, 20]", ""), {"path.ebar", "missing"}},
       {small_scene + "[effects]\nfriction = -0.3\n", {":9", "effects.friction", "[0, 5]"}},
       {small_scene + "[ends]\nturn = \"90 degree\"\n", {":9", "ends.turn", "clamped"}},
-      {small_scene + "[effects]\nmagnetism = true\n", {":9", "effects.magnetism", "no such effect"}},
+      {small_scene + "[effects]\nmagnetism = true\n",
+       {":9", "effects.magnetism", "no such effect"}},
       {small_scene + "[knot]\ntype = \"granny\"\n", {":9", "knot.type", "granny", "figure-eight"}},
       {small_scene + "[knot]\ncenterline = \"no.csv\"\n",
        {":9", "knot.centerline", "no such file"}},
@@ -185,4 +186,21 @@ TEST_CASE("gravity, inertia and damping are refused where they are not simulated
   CHECK(complaint(small_scene, rod).find("needs effects.inertia") != std::string::npos);
   CHECK(complaint(small_scene, {"fidelities=rod", "effects.gravity_direction=[0, 0]"})
             .find("three numbers") != std::string::npos);
+}
+
+TEST_CASE("natural curvature and twist reach the rod, and not the solid") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> curved = {"rod.natural_curvature=12 1/m",
+                                           "rod.natural_twist=90 degree/m"};
+  std::vector<std::string> rod_alone = curved;
+  rod_alone.push_back("fidelities=rod");
+  const Scene scene = read_scene(folder.write("knot.toml", small_scene), rod_alone);
+  CHECK(scene.twist);
+  const auto rod = rod_parameters(scene);
+  CHECK(rod.natural_curvature == Approx(12 * 8.3e-3));
+  CHECK(rod.natural_twist == Approx(0.5 * M_PI * 8.3e-3));
+  CHECK_FALSE(rod.follow_knot);
+  CHECK(
+      complaint(small_scene, curved).find("natural curvature cannot be simulated with the solid") !=
+      std::string::npos);
 }
