@@ -239,13 +239,13 @@ RodModel::~RodModel() = default;
 ///
 /// When the pinned node comes near the axis another one takes its place, and the states so far are
 /// turned until that one is at y = 0: a node that is held beside the axis at a fixed y would turn
-/// the knot as it shrinks. Weight makes the knot hang, and a rod that is curved when free is turned by
-/// its held start, so that only the second is needed. Friction or a symmetry holds it by itself: then
-/// no node is held.
+/// the knot as it shrinks. Weight makes the knot hang, and a rod that is curved when free is turned
+/// by its held start, so that only the second is needed. Friction or a symmetry holds it by itself:
+/// then no node is held.
 bool RodModel::choose_pin() {
   const Vector& x = accepted_.back().x;
   const int before = pin_;
-  const int farthest = rubs_ || symmetry_ || weighs() || !rod_.straight() ? -1 : farthest_node(rod_, x);
+  const int farthest = rubs_ || symmetry_ || turned_by_itself() ? -1 : farthest_node(rod_, x);
   if (before >= 0 && farthest >= 0 && radius_of(x, before) > 0.6 * radius_of(x, farthest))
     return false;
   pin_ = farthest;
@@ -266,7 +266,7 @@ void RodModel::set_equations() {
     if (parameters_.twist && finish_turns_) held[rod_.angle(0)] = false;
   }
   if (pin_ >= 0) held[Rod::position(pin_) + 1] = true;
-  if (weighs() ? !rubs_ && !symmetry_ : pin_ >= 0 && determinant_ != 1)
+  if (turned_by_itself() ? !rubs_ && !symmetry_ : pin_ >= 0 && determinant_ != 1)
     held[Rod::position(middle_node()) + 2] = true;
   std::vector<int> blocks;
   for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));

@@ -84,6 +84,8 @@ class RodModel final : public PathModel {
   Vector rolled(Vector x, double angle) const;
   Vector let_move(const Vector& x);
   bool weighs() const { return parameters_.gravity != Vector3::Zero(); }
+  /// A turn about the axis does change the energy.
+  bool turned_by_itself() const { return weighs() || !rod_.straight(); }
   NewtonResult solve_rubbing(const Vector& guess, bool thorough);
   NewtonResult solve_contact(Vector x);
 
