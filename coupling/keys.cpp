@@ -104,7 +104,7 @@ const std::vector<Key>& all_keys() {
       {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without inertia and natural curvature or twist",
        "Nodes follow the knot along the rod, densest where strands are near each other"},
       {"rod1d.symmetry", boolean, "", {}, {}, "true", "",
-       "Of a knot with a two-fold axis, simulate one half; the other is its image"},
+       "Of a knot with a two-fold axis or an inversion, simulate one half; the other is its image"},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
        "Largest overlap of strands aimed at, in D"},
 

@@ -102,12 +102,10 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
   Polyline line = chord_on_axis(start);
-  if (parameters.symmetry && parameters.segments % 2 == 0 && rod_.straight() &&
-      !parameters.inertia && parameters.gravity == Vector3::Zero())
-    if (auto aligned = TwoFold::aligned(line)) {
-      symmetry_.emplace(parameters.segments);
-      line = std::move(*aligned);
-    }
+  if (parameters.symmetry && rod_.straight() && !parameters.inertia && !weighs())
+    symmetry_ = TwoFold::find(line, parameters.segments);
+  // A turn of one end against the other is no inversion's image.
+  if (inverts() && parameters.finish_turn != 0) symmetry_.reset();
   line = meshed(line);
   start_ebar_ = length_ - (line.back() - line.front()).norm();
   determinant_ = knot_determinant(line);
@@ -188,6 +186,11 @@ void RodModel::keep_twist(const std::vector<double>& arc, const Vector& x, const
     rod1d::keep_twist(arc, x, frames, wanted, frames_wanted, 0, true, !finish_turns_, x_wanted);
     return;
   }
+  if (inverts()) {
+    rod1d::keep_twist(arc, x, frames, wanted, frames_wanted, 0, true, false, x_wanted);
+    symmetry_->impose(x_wanted);
+    return;
+  }
   // Opposite angles before and behind the middle node, with its twist between them.
   const int before = middle_node() - 1;
   Vector twisted = x_wanted;
@@ -240,12 +243,14 @@ RodModel::~RodModel() = default;
 /// When the pinned node comes near the axis another one takes its place, and the states so far are
 /// turned until that one is at y = 0: a node that is held beside the axis at a fixed y would turn
 /// the knot as it shrinks. Weight makes the knot hang, and a rod that is curved when free is turned
-/// by its held start, so that only the second is needed. Friction or a symmetry holds it by itself:
-/// then no node is held.
+/// by its held start, so that only the second is needed. Friction holds it by itself, and a
+/// symmetry too, but for the turn of a knot that is symmetric by inversion.
 bool RodModel::choose_pin() {
   const Vector& x = accepted_.back().x;
   const int before = pin_;
-  const int farthest = rubs_ || symmetry_ || turned_by_itself() ? -1 : farthest_node(rod_, x);
+  const bool turns = !rubs_ && !turned_by_itself() && (!symmetry_ || inverts());
+  int farthest = turns ? farthest_node(rod_, x) : -1;
+  if (symmetry_) farthest = std::min(farthest, rod_.segments() - farthest);
   if (before >= 0 && farthest >= 0 && radius_of(x, before) > 0.6 * radius_of(x, farthest))
     return false;
   pin_ = farthest;
@@ -263,7 +268,7 @@ void RodModel::set_equations() {
   if (symmetry_) {
     images = symmetry_->images(parameters_.twist);
     symmetry_->hold_middle(held);
-    if (parameters_.twist && finish_turns_) held[rod_.angle(0)] = false;
+    if (parameters_.twist && finish_turns_ && !inverts()) held[rod_.angle(0)] = false;
   }
   if (pin_ >= 0) held[Rod::position(pin_) + 1] = true;
   if (turned_by_itself() ? !rubs_ && !symmetry_ : pin_ >= 0 && determinant_ != 1)
@@ -356,7 +361,7 @@ Vector RodModel::extrapolated(double ebar, size_t most) const {
   if (pin_ >= 0) turn(rod_, turn_to_x(x, pin_), x);
   place_grips(rod_, end_to_end(ebar), x);
   if (!finish_turns_) x[rod_.angle(rod_.segments() - 1)] = finish_angle_;
-  if (!finish_turns_ && symmetry_) x[rod_.angle(0)] = -finish_angle_;
+  if (!finish_turns_ && symmetry_) x[rod_.angle(0)] = symmetry_->angle_sign() * finish_angle_;
   if (symmetry_) symmetry_->impose(x);
   return x;
 }
@@ -365,11 +370,12 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
   NewtonOptions options;
   options.max_iterations = tension_ > 0 ? 100 : 500;
   options.energy_tolerance = 1e-10 * force_scale_;
-  // No better than what the round-off of the places in space does to the stretching force.
+  // No better than what the round-off of the places in space does to stretching and bending forces.
   const double shortest = *std::min_element(rod_.rest_length.begin(), rod_.rest_length.end());
   const double round_off = std::numeric_limits<double>::epsilon() * 0.5 * length_ / shortest;
-  options.force_tolerance =
-      std::max(1e-7 * force_scale_, 4 * rod_.stretching_stiffness * round_off);
+  options.force_tolerance = std::max(
+      1e-7 * force_scale_,
+      (4 * rod_.stretching_stiffness + rod_.bending_stiffness / (shortest * shortest)) * round_off);
   options.largest_move = 1;
   options.bound.first_rise = 1e-8 * force_scale_;  // round-off of the energy
   NewtonResult result = newton(equations_->system, guess, options);

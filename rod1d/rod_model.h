@@ -85,6 +85,7 @@ class RodModel final : public PathModel {
   Vector let_move(const Vector& x);
   bool weighs() const { return parameters_.gravity != Vector3::Zero(); }
   /// A turn about the axis does change the energy.
+  bool inverts() const { return symmetry_ && symmetry_->kind() == TwoFold::Kind::inversion; }
   bool turned_by_itself() const { return weighs() || !rod_.straight(); }
   NewtonResult solve_rubbing(const Vector& guess, bool thorough);
   NewtonResult solve_contact(Vector x);

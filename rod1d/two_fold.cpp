@@ -14,22 +14,36 @@ constexpr double off_axis = 0.05;   ///< least radius of the middle point that n
 constexpr int compared = 400;       ///< points of a start that are compared with their images
 constexpr double same_arc = 1e-12;  ///< of two arc lengths, in parts of the length
 
-Vector3 half_turn(const Vector3& r) { return {r.x(), -r.y(), -r.z()}; }
-
 }  // namespace
 
-std::optional<Polyline> TwoFold::aligned(const Polyline& start, double tolerance) {
+std::optional<TwoFold> TwoFold::find(Polyline& start, int segments, double tolerance) {
+  if (segments % 2 != 0) return std::nullopt;
   const Polyline points = resampled(start, compared);
+  const auto has = [&](const TwoFold& symmetry, const Matrix3& turn) {
+    for (int i = 0; i <= compared / 2; ++i) {
+      const Vector3 image = symmetry.signs().cwiseProduct(turn * points[i]);
+      if (!((image - turn * points[compared - i]).norm() < tolerance)) return false;
+    }
+    return true;
+  };
+  const auto made_symmetric = [&](const TwoFold& symmetry, const Matrix3& turn) {
+    const Polyline line = resampled(start, 2 * static_cast<int>(start.size()));
+    const size_t last = line.size() - 1;
+    start.clear();
+    for (size_t i = 0; i <= last; ++i)
+      start.push_back(0.5 *
+                      (turn * line[i] + symmetry.signs().cwiseProduct(turn * line[last - i])));
+    return symmetry;
+  };
+  const TwoFold inversion(Kind::inversion, segments);
+  if (has(inversion, Matrix3::Identity())) return made_symmetric(inversion, Matrix3::Identity());
   const Vector3& middle = points[compared / 2];
   if (middle.head<2>().norm() < off_axis) return std::nullopt;
   const Matrix3 turn =
       Eigen::AngleAxisd(-std::atan2(middle.y(), middle.x()), Vector3::UnitZ()).toRotationMatrix();
-  for (int i = 0; i <= compared / 2; ++i)
-    if (!((half_turn(turn * points[i]) - turn * points[compared - i]).norm() < tolerance))
-      return std::nullopt;
-  Polyline out;
-  for (const Vector3& p : start) out.push_back(turn * p);
-  return out;
+  const TwoFold half_turn(Kind::half_turn, segments);
+  if (!has(half_turn, turn)) return std::nullopt;
+  return made_symmetric(half_turn, turn);
 }
 
 std::vector<Image> TwoFold::images(bool twist) const {
@@ -37,18 +51,18 @@ std::vector<Image> TwoFold::images(bool twist) const {
   std::vector<Image> list(3 * nodes + (twist ? last_ : 0));
   for (int i = last_ / 2 + 1; i <= last_; ++i) {
     const int source = Rod::position(last_ - i), image = Rod::position(i);
-    list[image] = {source, 1};
-    list[image + 1] = {source + 1, -1};
-    list[image + 2] = {source + 2, -1};
+    for (int c = 0; c < 3; ++c) list[image + c] = {source + c, signs()[c]};
   }
   if (twist)
-    for (int j = last_ / 2; j < last_; ++j) list[3 * nodes + j] = {3 * nodes + last_ - 1 - j, -1};
+    for (int j = last_ / 2; j < last_; ++j)
+      list[3 * nodes + j] = {3 * nodes + last_ - 1 - j, angle_sign()};
   return list;
 }
 
 void TwoFold::hold_middle(std::vector<bool>& held) const {
   const int middle = Rod::position(last_ / 2);
-  held[middle + 1] = held[middle + 2] = true;
+  for (int c = 0; c < 3; ++c)
+    if (signs()[c] < 0) held[middle + c] = true;
 }
 
 void TwoFold::impose(std::vector<double>& arc) const {
@@ -61,28 +75,32 @@ void TwoFold::impose(std::vector<double>& arc) const {
 
 void TwoFold::impose(Vector& x) const {
   for (int i = 0; i < last_ / 2; ++i)
-    x.segment<3>(Rod::position(last_ - i)) = half_turn(x.segment<3>(Rod::position(i)));
-  x.segment<2>(Rod::position(last_ / 2) + 1).setZero();
+    x.segment<3>(Rod::position(last_ - i)) = signs().cwiseProduct(x.segment<3>(Rod::position(i)));
+  for (int c = 0; c < 3; ++c)
+    if (signs()[c] < 0) x[Rod::position(last_ / 2) + c] = 0;
   const int angles = 3 * (last_ + 1);
   if (x.size() > angles)
-    for (int j = 0; j < last_ / 2; ++j) x[angles + last_ - 1 - j] = -x[angles + j];
+    for (int j = 0; j < last_ / 2; ++j) x[angles + last_ - 1 - j] = angle_sign() * x[angles + j];
 }
 
+/// A director's image under inversion is its opposite; of the two, that of the same turn is taken.
 void TwoFold::impose(Frames& frames) const {
   for (int j = 0; j < last_ / 2; ++j) {
-    frames.tangent[last_ - 1 - j] = -half_turn(frames.tangent[j]);
-    frames.normal[last_ - 1 - j] = half_turn(frames.normal[j]);
+    frames.tangent[last_ - 1 - j] = -signs().cwiseProduct(frames.tangent[j]);
+    frames.normal[last_ - 1 - j] = -angle_sign() * signs().cwiseProduct(frames.normal[j]);
   }
-  for (int i = 1; i < last_ / 2; ++i) frames.twist[last_ - i] = frames.twist[i];
+  for (int i = 1; i < last_ / 2; ++i) frames.twist[last_ - i] = -angle_sign() * frames.twist[i];
 }
 
 void TwoFold::align(Frames& frames) const {
   const int j = last_ / 2 - 1;
   const Vector3 &t = frames.tangent[last_ - 1 - j], &n = frames.normal[last_ - 1 - j];
-  const Vector3 image = half_turn(frames.normal[j]);
-  const double turn = 0.5 * std::atan2(t.cross(n).dot(image), n.dot(image));
-  for (size_t k = 0; k < frames.normal.size(); ++k)
-    frames.normal[k] = Eigen::AngleAxisd(turn, frames.tangent[k]) * frames.normal[k];
+  if (kind_ == Kind::half_turn) {
+    const Vector3 image = signs().cwiseProduct(frames.normal[j]);
+    const double turn = 0.5 * std::atan2(t.cross(n).dot(image), n.dot(image));
+    for (size_t k = 0; k < frames.normal.size(); ++k)
+      frames.normal[k] = Eigen::AngleAxisd(turn, frames.tangent[k]) * frames.normal[k];
+  }
   impose(frames);
 }
 

@@ -11,25 +11,33 @@
 
 namespace bight::rod1d {
 
-/// Two-fold symmetry of a rod between equal grips: half a turn about the x axis, which goes through
-/// its middle node, maps node i on node N - i,
+/// A symmetry of order two of a rod between equal grips, which maps node i on node N - i. Half a
+/// turn about the x axis, which goes through the middle node (a loose overhand knot has it), or
+/// inversion in the middle node (a figure-eight):
 ///
-///   x' = x, y' = -y, z' = -z,   angle' = -angle of segment N - 1 - i,
+///   half turn  x' =  x, y' = -y, z' = -z,  angle' = -angle of segment N - 1 - i
+///   inversion  x' = -x, y' = -y, z' = -z,  angle' =  angle
 ///
-/// where the reference frames are images too. A loose overhand knot has it. The equilibria of one
-/// half with its image are equilibria of the whole (principle of symmetric criticality, Palais
-/// 1979): half the unknowns, and none of the motions that cost a knot nothing. Those are the turn
-/// about the pulling axis, the roll of the rod and the slide of the knot along it, which are
-/// antisymmetric. With friction a knot that slides everywhere resists the slide along the rod no
-/// more than without, so that round-off would decide about it.
+/// where the reference frames are images too. The equilibria of one half with its image are
+/// equilibria of the whole (principle of symmetric criticality, Palais 1979), with half the
+/// unknowns. The slide of the knot along the rod, which costs next to nothing, is antisymmetric.
+/// With friction a knot that slides everywhere resists it no more than without, so that round-off
+/// would decide about it. The half turn also excludes that the knot turns about the pulling axis,
+/// and that the rod rolls; inversion excludes that one end turns against the other.
 class TwoFold {
  public:
-  explicit TwoFold(int segments) : last_(segments) {}
+  enum class Kind { half_turn, inversion };
+  TwoFold(Kind kind, int segments) : kind_(kind), last_(segments) {}
 
-  /// The start turned about z so that its symmetry axis is x, if it has one to `tolerance` [D].
-  static std::optional<Polyline> aligned(const Polyline& start, double tolerance = 1e-6);
+  /// The symmetry of a start whose chord is on the z axis with its middle at 0, if it has one to
+  /// `tolerance` [D]. The start is turned about z so that the axis of a half turn is x, and made
+  /// exactly symmetric.
+  static std::optional<TwoFold> find(Polyline& start, int segments, double tolerance = 0.02);
 
-  /// Coordinates of the second half are images of the first; the middle node stays on the axis.
+  Kind kind() const { return kind_; }
+
+  /// Coordinates of the second half are images of the first; the middle node stays where it is its
+  /// own image.
   std::vector<Image> images(bool twist) const;
   void hold_middle(std::vector<bool>& held) const;
 
@@ -37,6 +45,8 @@ class TwoFold {
   void impose(std::vector<double>& arc) const;
   void impose(Vector& x) const;
   void impose(Frames& frames) const;
+  /// Sign of an angle's image.
+  double angle_sign() const { return kind_ == Kind::half_turn ? -1 : 1; }
   /// Turns the directors of twist-free frames of a symmetric rod so that they are images.
   void align(Frames& frames) const;
 
@@ -47,6 +57,9 @@ class TwoFold {
   std::vector<ContactPoint> halved(std::vector<ContactPoint> points, double length) const;
 
  private:
+  Vector3 signs() const { return kind_ == Kind::half_turn ? Vector3(1, -1, -1) : -Vector3::Ones(); }
+
+  Kind kind_;
   int last_;  ///< last node N
 };
 

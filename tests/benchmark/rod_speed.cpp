@@ -95,7 +95,7 @@ void run(const Case& c, bool each_step) {
   std::fflush(stdout);
 }
 
-/// try LENGTH SEGMENTS FROM TO STEP [KNOT] [uniform] [whole] [clamped] [mu=0.3]: one path of one's
+/// try LENGTH SEGMENTS FROM TO STEP [KNOT] [straight] [uniform] [whole] [clamped] [mu=0.3]: one path of one's
 /// own, step by step.
 Case own_case(const std::vector<std::string>& words) {
   const auto number = [&](size_t i) { return std::stod(words.at(i)); };
@@ -106,6 +106,8 @@ Case own_case(const std::vector<std::string>& words) {
       c.parameters.follow_knot = false;
     else if (words[i] == "clamped")
       c.parameters.finish_turns = false, c.parameters.twist = true;
+    else if (words[i] == "straight")
+      c.parameters.from_straight = true;
     else if (words[i] == "whole")
       c.parameters.symmetry = false;
     else if (words[i].starts_with("mu="))

@@ -178,6 +178,36 @@ TEST_CASE("tightened or loosened, what the ends give to a knot is stored or diss
   CHECK(last.dissipated - first.dissipated == Approx(work - stored).epsilon(0.015));
 }
 
+TEST_CASE("a loop of loosening and tightening closes, and its area is what friction dissipates") {
+  RodParameters parameters;
+  parameters.friction = 0.1;
+  parameters.twist = true;
+  parameters.path.waypoints = {25, 22, 25, 22};
+  parameters.path.max_step = 0.25;
+  const RodResult result = run_rod(parameters);
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  const std::vector<StepRow>& rows = result.steps;
+  const auto tight = std::find_if(
+      rows.begin(), rows.end(), [](const StepRow& row) { return std::abs(row.ebar - 22) < 1e-9; });
+  REQUIRE(tight != rows.end());
+  double area = 0, loosest = 22;
+  for (auto row = tight + 1; row != rows.end(); ++row) {
+    area += 0.5 * (row->tension + (row - 1)->tension) * ((row - 1)->ebar - row->ebar);
+    loosest = std::max(loosest, row->ebar);
+    CHECK(row->dissipated >= (row - 1)->dissipated);
+  }
+  CHECK(loosest == Approx(25));
+  const StepRow& last = rows.back();
+  CHECK(last.ebar == Approx(22));
+  CHECK(last.tension == Approx(tight->tension).epsilon(2e-3));
+  CHECK(last.energy == Approx(tight->energy).epsilon(2e-3));
+  CHECK(area == Approx(last.dissipated - tight->dissipated).epsilon(0.02));
+  // Loosened, the ends are pulled less by much more than that.
+  const auto back = std::find_if(
+      tight, rows.end(), [](const StepRow& row) { return std::abs(row.ebar - 23.5) < 1e-9; });
+  CHECK(back->tension < 0.8 * tight->tension);
+}
+
 TEST_CASE("strong friction: a smooth curve while the knot is tightened") {
   RodParameters parameters;
   parameters.friction = 0.32;

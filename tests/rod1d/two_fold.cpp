@@ -8,6 +8,7 @@
 #include "rod1d/overhand.h"
 #include "rod1d/polyline.h"
 #include "rod1d/remesh.h"
+#include "rod1d/tie.h"
 #include "tests/mechanics/toy_effects.h"
 
 using namespace bight;
@@ -18,9 +19,15 @@ namespace {
 constexpr int segments = 170;
 constexpr double length = 42.17;
 
-/// A loose overhand knot whose braid touches, twisted, exactly symmetric.
+Polyline start(TwoFold::Kind kind) {
+  if (kind == TwoFold::Kind::half_turn) return overhand_start(length, 28, segments);
+  return tied(tie_protocol("figure-eight"), length, 29);
+}
+
+/// A loose knot, drawn together until it touches, twisted, exactly symmetric: by half a turn (an
+/// overhand knot) or by inversion (a figure-eight).
 struct SymmetricKnot {
-  TwoFold symmetry{segments};
+  TwoFold symmetry;
   RodParameters parameters;
   Rod rod = uniform_rod(length, segments, 0.5);
   Frames source;
@@ -28,12 +35,17 @@ struct SymmetricKnot {
   RodEffects effects;
   EffectList halves;
 
-  SymmetricKnot() {
+  explicit SymmetricKnot(TwoFold::Kind kind) : symmetry(kind, segments) {
     parameters.twist = true;
-    const Polyline line = *TwoFold::aligned(chord_on_axis(overhand_start(length, 28, segments)));
+    Polyline line = chord_on_axis(start(kind));
+    const auto found = TwoFold::find(line, segments);
+    REQUIRE(found);
+    REQUIRE(found->kind() == kind);
+    line = resampled(line, segments);
     for (int i = 0; i < rod.nodes(); ++i)
       x.segment<3>(3 * i) = line[i].cwiseProduct(Vector3(0.85, 0.85, 1));
-    for (int j = 0; j < segments; ++j) x[rod.angle(j)] = 0.3 * std::sin(0.05 * (j - 84.5));
+    for (int j = 0; j < segments; ++j)
+      x[rod.angle(j)] = 0.3 * std::sin(0.05 * (j - 84.5) + (kind == TwoFold::Kind::inversion));
     symmetry.impose(x);
     source = twist_free_frames(rod, x);
     symmetry.align(source);
@@ -51,29 +63,42 @@ std::vector<int> blocks(const Rod& rod) {
   return first;
 }
 
-Vector half_turned(const Vector& x) {
+const auto both = {TwoFold::Kind::half_turn, TwoFold::Kind::inversion};
+
+Vector image_of(TwoFold::Kind kind, const Vector& x) {
+  const Vector3 signs = kind == TwoFold::Kind::half_turn ? Vector3(1, -1, -1) : Vector3(-1, -1, -1);
   Vector out = x;
   for (int i = 0; i <= segments; ++i)
-    out.segment<3>(3 * i) = x.segment<3>(3 * (segments - i)).cwiseProduct(Vector3(1, -1, -1));
+    out.segment<3>(3 * i) = x.segment<3>(3 * (segments - i)).cwiseProduct(signs);
   return out;
 }
 
 }  // namespace
 
 TEST_CASE("a symmetric start is turned so that its axis is x, another one has none") {
-  Polyline line = chord_on_axis(overhand_start(length, 28, segments));
+  Polyline line = chord_on_axis(start(TwoFold::Kind::half_turn));
   const Matrix3 turn = Eigen::AngleAxisd(1.1, Vector3::UnitZ()).toRotationMatrix();
-  for (Vector3& p : line) p = turn * p;
-  const auto aligned = TwoFold::aligned(line);
-  REQUIRE(aligned);
-  CHECK(std::abs((*aligned)[segments / 2].y()) < 1e-9);
-  CHECK((*aligned)[segments / 2].x() > 1);
-  line[40] += Vector3(0, 0, 1e-3);
-  CHECK_FALSE(TwoFold::aligned(line));
+  for (Vector3& p : line) p = (turn * p).eval();
+  const auto found = TwoFold::find(line, segments);
+  REQUIRE(found);
+  CHECK(found->kind() == TwoFold::Kind::half_turn);
+  const size_t last = line.size() - 1;
+  CHECK(last % 2 == 0);
+  CHECK(line[last / 2].tail<2>().norm() < 1e-14);
+  CHECK(line[last / 2].x() > 1);
+  CHECK_FALSE(TwoFold::find(line, segments + 1));  // no node in the middle
+  // A little beside: made symmetric. Much: not.
+  line[60] += Vector3(0, 0, 0.01);
+  CHECK(TwoFold::find(line, segments));
+  const size_t end = line.size() - 1;
+  for (size_t i = 0; i <= end; ++i)
+    CHECK((line[i] - line[end - i].cwiseProduct(Vector3(1, -1, -1))).norm() < 1e-12);
+  line[60] += Vector3(0, 0, 0.2);
+  CHECK_FALSE(TwoFold::find(line, segments));
 }
 
 TEST_CASE("half a rod and its image have the energy, gradient and Hessian of the whole") {
-  SymmetricKnot knot;
+  SymmetricKnot knot(GENERATE(values(both)));
   const int count = static_cast<int>(knot.x.size());
   std::vector<bool> held(count, false);
   knot.symmetry.hold_middle(held);
@@ -96,23 +121,27 @@ TEST_CASE("half a rod and its image have the energy, gradient and Hessian of the
 }
 
 TEST_CASE("the gradient of a symmetric rod is symmetric: its equilibria are those of the whole") {
-  SymmetricKnot knot;
+  const auto kind = GENERATE(values(both));
+  SymmetricKnot knot(kind);
   const Unknowns unknowns(blocks(knot.rod), static_cast<int>(knot.x.size()),
                           std::vector<bool>(knot.x.size(), false));
   Assembler whole(unknowns, knot.effects.list);
   Vector gradient;
   whole.refresh(knot.x);
   whole.assemble(knot.x, Order::gradient, gradient);
-  const Vector image = half_turned(gradient);
+  const Vector image = image_of(kind, gradient);
   CHECK((image - gradient).head(3 * knot.rod.nodes()).norm() < 1e-11 * gradient.norm());
   for (int j = 0; j < segments / 2; ++j)
     CHECK(gradient[knot.rod.angle(j)] ==
-          Approx(-gradient[knot.rod.angle(segments - 1 - j)]).margin(1e-14));
+          Approx(knot.symmetry.angle_sign() * gradient[knot.rod.angle(segments - 1 - j)])
+              .margin(1e-14));
 }
 
 TEST_CASE("one half simulated or the whole: the same knot, with friction and without") {
   RodParameters parameters;
-  parameters.friction = GENERATE(0.0, 0.2);
+  parameters.knot = GENERATE("overhand", "figure-eight");
+  parameters.from_straight = parameters.knot == "figure-eight";
+  if (parameters.knot == "overhand") parameters.friction = GENERATE(0.0, 0.2);
   parameters.twist = parameters.friction > 0;
   parameters.segments = 200;
   parameters.path.waypoints = {24, 23};
