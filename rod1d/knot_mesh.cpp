@@ -11,6 +11,7 @@ namespace bight::rod1d {
 namespace {
 
 constexpr double finest = 0.3;          ///< [D]; only the ratios of wished lengths matter
+constexpr double at_grips = 0.1;        ///< a gripped segment is straight [D]
 constexpr double per_gap = 0.12;        ///< of a segment's length [1]
 constexpr double largest_angle = 0.07;  ///< between neighbouring segments [rad]
 constexpr double growth = 0.15;         ///< of the length wished for, per arc length [1]
@@ -48,6 +49,7 @@ std::vector<double> wished_lengths(const std::vector<double>& arc, const Polylin
     h[i] = std::min(h[i], largest_angle / std::max(kappa, 1e-9));
     h[i] = std::max(h[i], finest / 3);
   }
+  h.front() = h.back() = at_grips;
   for (int i = 1; i < n; ++i) h[i] = std::min(h[i], h[i - 1] + growth * (arc[i] - arc[i - 1]));
   for (int i = n - 2; i >= 0; --i) h[i] = std::min(h[i], h[i + 1] + growth * (arc[i + 1] - arc[i]));
   return h;

@@ -12,10 +12,11 @@ namespace bight::rod1d {
 
 /// Segment length wished for at the points of a centerline [D], by their undeformed arc length:
 ///
-///   h = 0.3 + 0.12 gap,  0.1 <= h <= 0.07/kappa,  |dh/ds| <= 0.15,  h = 0.3 at both ends
+///   h = 0.3 + 0.12 gap,  0.1 <= h <= 0.07/kappa,  |dh/ds| <= 0.15,  h = 0.1 at both ends
 ///
-/// gap: to the nearest strand that has come back, which means that its distance is below 0.6 of the
-/// arc length between. kappa: curvature. About n^2 for n points.
+/// The ends' segments are gripped, and straight: long ones would shorten the rod that is free to
+/// bend. gap: to the nearest strand that has come back, which means that its distance is below 0.6
+/// of the arc length between. kappa: curvature. About n^2 for n points.
 std::vector<double> wished_lengths(const std::vector<double>& arc, const Polyline& line);
 
 /// Arc lengths of `segments` + 1 nodes from the first to the last of `arc`, whose segments are in

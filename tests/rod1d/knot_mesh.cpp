@@ -19,8 +19,8 @@ TEST_CASE("nodes are spread as wished, densest where strands are near each other
   const std::vector<double> wished = wished_lengths(arc, line);
   for (int i = 1; i <= points; ++i)
     REQUIRE(std::abs(wished[i] - wished[i - 1]) < 0.151 * (arc[i] - arc[i - 1]));
-  CHECK(wished.front() == Approx(0.3));
-  CHECK(wished.back() == Approx(0.3));
+  CHECK(wished.front() == Approx(0.1));
+  CHECK(wished.back() == Approx(0.1));
   CHECK(*std::max_element(wished.begin(), wished.end()) > 2);
 
   const std::vector<double> nodes = spread_nodes(arc, wished, 300);
