@@ -57,6 +57,19 @@ std::optional<Command> read_command_line(int argc, char** argv) {
     add_scene(sub, command);
     add_run_options(sub, command);
   }
+  CLI::App* study = add_verb(app, "study", "Run a scene over a grid of keys: error against time");
+  add_scene(study, command);
+  add_run_options(study, command);
+  study
+      ->add_option("--grid", command.grid,
+                   "Values of a key to be run through (repeatable: the product)")
+      ->type_name("KEY=VALUE,VALUE")
+      ->allow_extra_args(false)
+      ->trigger_on_parse(false);
+  study->add_option("--jobs", command.jobs, "Write the runs' commands, a line each; run nothing")
+      ->type_name("FILE");
+  study->add_option("--slurm", command.slurm, "Write a Slurm array script of them; run nothing")
+      ->type_name("FILE");
   add_scene(add_verb(app, "check", "Read a scene, say what will be simulated; run nothing"),
             command);
   add_verb(app, "keys", "List every key of a scene: unit, range, default, meaning");
@@ -68,8 +81,7 @@ std::optional<Command> read_command_line(int argc, char** argv) {
       ->required();
   compare->add_option("--out", command.out, "Folder for compare.csv; default: print only")
       ->type_name("DIR");
-  for (const char* later : {"study", "report"})
-    app.add_subcommand(later)->group("")->allow_extras()->set_help_flag();
+  app.add_subcommand("report")->group("")->allow_extras()->set_help_flag();
 
   try {
     app.parse(argc, argv);

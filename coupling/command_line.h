@@ -14,6 +14,8 @@ struct Command {
   std::vector<std::filesystem::path> sources;  ///< of `compare`
   std::filesystem::path out;                   ///< empty: not given
   std::vector<std::string> settings;           ///< "key=value"
+  std::vector<std::string> grid;               ///< "key=value,value" of `study`
+  std::filesystem::path jobs, slurm;           ///< of `study`: written instead of running
   int threads = 1;
   bool resume = false, force = false, quiet = false;
 };

@@ -29,6 +29,18 @@ int edits(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::string_view in_a_study(Fineness fineness) {
+  switch (fineness) {
+    case Fineness::size:
+      return "    finer when: smaller\n";
+    case Fineness::count:
+    case Fineness::count_per_area:
+      return "    finer when: larger\n";
+    default:
+      return "";
+  }
+}
+
 std::string_view last_part(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
@@ -40,7 +52,7 @@ const std::vector<Key>& all_keys() {
   static const std::vector<Key> keys = {
       {"title", text, "", {}, {}, R"("")", "", "What the scene is; copied into the results"},
       {"fidelities", words, "", {}, {"rod", "solid"}, R"(["rod", "solid"])", "",
-       "What `bight run` simulates; the rod always ties the knot"},
+       "What `bight run` simulates; the rod always ties the knot", Fineness::choice},
 
       {"rod.length", quantity, "m", above(0), {}, "", "required", "Undeformed length L0"},
       {"rod.diameter", quantity, "m", above(0), {}, "", "required", "Undeformed diameter D"},
@@ -91,39 +103,45 @@ const std::vector<Key>& all_keys() {
       {"path.ebar", numbers, "", {-1e5, 1e5}, {}, "", "required",
        "Waypoints of (L0 - L)/D: tightening when falling, loosening when rising"},
       {"path.max_step", number, "", {1e-4, 100}, {}, "0.5", "",
-       "Largest step in ebar; the solver may take smaller ones"},
+       "Largest step in ebar; the solver may take smaller ones", Fineness::size},
       {"path.record", numbers, "", {-1e5, 1e5}, {}, "", "the waypoints",
        "ebar at which full states are written"},
       {"path.speed", quantity, "m/s", above(0), {}, "0.0005", "",
        "Speed of the moving end; used by effects that know time"},
       {"path.time_tolerance", number, "", {1e-8, 0.05}, {}, "1e-4", "",
-       "Error allowed in a time step, in D; used by effects that know time"},
+       "Error allowed in a time step, in D; used by effects that know time", Fineness::size},
 
       {"rod1d.segments", integer, "", {5, 1e5}, {}, "", "8 per diameter, even, at least 60, at most 400 if they follow the knot",
-       "Segments of the centerline"},
+       "Segments of the centerline", Fineness::count},
       {"rod1d.follow_knot", boolean, "", {}, {}, "", "true without inertia and natural curvature or twist",
-       "Nodes follow the knot along the rod, densest where strands are near each other"},
+       "Nodes follow the knot along the rod, densest where strands are near each other", Fineness::choice},
       {"rod1d.symmetry", boolean, "", {}, {}, "true", "",
-       "Of a knot with a two-fold axis or an inversion, simulate one half; the other is its image"},
+       "Of a knot with a two-fold axis or an inversion, simulate one half; the other is its image",
+       Fineness::choice},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
-       "Largest overlap of strands aimed at, in D"},
+       "Largest overlap of strands aimed at, in D", Fineness::size},
 
       {"solid3d.section_elements", integer, "", {12, 2000}, {}, "32", "",
-       "About this many hexahedra in a cross-section (12, 32, 60, 108 fit exactly)"},
+       "About this many hexahedra in a cross-section (12, 32, 60, 108 fit exactly)", Fineness::count_per_area},
       {"solid3d.seed_ebar", number, "", {-1e5, 1e5}, {}, "", "the first waypoint",
        "ebar at which the rod's state becomes the solid's start"},
       {"solid3d.axial_ratio", number, "", {0.1, 5}, {}, "0.8", "",
-       "Length over width of a cell in the knot"},
+       "Length over width of a cell in the knot", Fineness::size},
       {"solid3d.tail_ratio", number, "", {0.1, 20}, {}, "3", "",
-       "Length over width of a cell in the straight tails"},
+       "Length over width of a cell in the straight tails", Fineness::size},
       {"solid3d.contact_stiffness", number, "", {0.1, 1e5}, {}, "60", "",
-       "First contact penalty per area, in E/D"},
+       "First contact penalty per area, in E/D", Fineness::count},
       {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
-       "Largest overlap allowed, in D; the penalty is stiffened until it is met"},
+       "Largest overlap allowed, in D; the penalty is stiffened until it is met", Fineness::size},
       {"solid3d.symmetry", boolean, "", {}, {}, "true", "",
-       "Of a knot with a two-fold axis, simulate one half; the other is its image"},
+       "Of a knot with a two-fold axis, simulate one half; the other is its image", Fineness::choice},
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
-       "Distance of contact samples on the surface, in D"},
+       "Distance of contact samples on the surface, in D", Fineness::size},
+
+      {"study.grid", grid, "", {}, {}, "", "none: given by --grid",
+       "What `bight study` varies: a table of keys, each with a list of values"},
+      {"study.extrapolate", text, "", {}, {}, R"("")", "",
+       "Key of the grid over which the study's reference is extrapolated; else it is the finest run"},
   };
   // clang-format on
   return keys;
@@ -171,6 +189,8 @@ std::string allowed(const Key& key) {
       return "text";
     case Kind::file:
       return "the name of a file, relative to the scene";
+    case Kind::grid:
+      return "a table such as { rod1d.segments = [85, 170, 340] }";
   }
   return {};
 }
@@ -178,8 +198,9 @@ std::string allowed(const Key& key) {
 std::string keys_table() {
   std::string table;
   for (const Key& key : all_keys())
-    table += fmt::format("{}\n    {}.\n    allowed: {}\n    default: {}\n", key.path, key.meaning,
-                         allowed(key), key.fallback.empty() ? key.otherwise : key.fallback);
+    table += fmt::format("{}\n    {}.\n    allowed: {}\n    default: {}\n{}", key.path, key.meaning,
+                         allowed(key), key.fallback.empty() ? key.otherwise : key.fallback,
+                         in_a_study(key.fineness));
   return table;
 }
 

@@ -7,7 +7,12 @@
 
 namespace bight::coupling {
 
-enum class Kind { quantity, number, integer, boolean, word, words, numbers, text, file };
+enum class Kind { quantity, number, integer, boolean, word, words, numbers, text, file, grid };
+
+/// What another value of a key makes of a result: another problem; the same problem solved another
+/// way; or the same problem, finer or coarser. Then the size h, with which errors fall, goes with
+/// the value, with its inverse, or with the inverse of its root.
+enum class Fineness { physical, choice, size, count, count_per_area };
 
 /// An interval; a bracket is open when its end is not allowed.
 struct Range {
@@ -28,6 +33,7 @@ struct Key {
   std::string_view fallback;            ///< default as TOML; empty: required or derived
   std::string_view otherwise;           ///< "required", or how the default is derived
   std::string_view meaning;
+  Fineness fineness = Fineness::physical;
 };
 
 /// THE table, in the order in which a scene is written.

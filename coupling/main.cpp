@@ -12,6 +12,7 @@
 #include "coupling/keys.h"
 #include "coupling/read_curves.h"
 #include "coupling/run.h"
+#include "coupling/study.h"
 
 using namespace bight::coupling;
 
@@ -41,13 +42,25 @@ ExitStatus compare_sources(const Command& command) {
   return done;
 }
 
+ExitStatus study_scene(const Command& command) {
+  const Study plan = plan_study(command.scene, command.settings, command.grid, command.out);
+  catch_interrupts();
+  return study(plan, {.program = std::filesystem::read_symlink("/proc/self/exe"),
+                      .jobs = command.jobs,
+                      .slurm = command.slurm,
+                      .side_by_side = command.threads,
+                      .force = command.force,
+                      .quiet = command.quiet});
+}
+
 ExitStatus obey(const Command& command) {
-  if (command.verb == "study" || command.verb == "report")
-    throw InputError("bight " + command.verb + " is not available yet");
+  if (command.verb == "report") throw InputError("bight " + command.verb + " is not available yet");
   if (command.verb == "keys") return fmt::print("{}", keys_table()), done;
   if (command.verb == "compare") return compare_sources(command);
   if (command.verb == "check")
     return fmt::print("{}", expectations(read_scene(command.scene, command.settings))), done;
+
+  if (command.verb == "study") return study_scene(command);
 
   const std::vector<std::string> only =
       command.verb == "run" ? std::vector<std::string>{} : std::vector{command.verb};

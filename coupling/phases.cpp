@@ -1,5 +1,7 @@
 #include "coupling/phases.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -14,6 +16,13 @@ double peak_memory_MB() {
   return 0;
 }
 
+// Of all threads.
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 void restart_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 }  // namespace
@@ -24,6 +33,7 @@ std::string Phases::enter(const std::string& name) {
   if (!phases_.empty()) {
     Phase& phase = phases_[current_];
     phase.wall_s += std::chrono::duration<double>(now - since_).count();
+    phase.cpu_s += cpu_seconds() - cpu_since_;
     phase.peak_MB = std::max(phase.peak_MB, peak_memory_MB());
     ended = phase.name;
   }
@@ -31,6 +41,7 @@ std::string Phases::enter(const std::string& name) {
   current_ = static_cast<size_t>(found - phases_.begin());
   if (found == phases_.end()) phases_.push_back({name});
   since_ = now;
+  cpu_since_ = cpu_seconds();
   restart_peak_memory();
   return ended;
 }

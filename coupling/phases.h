@@ -6,12 +6,13 @@
 
 namespace bight::coupling {
 
-/// Wall seconds and peak memory by phase of a run. One phase is current at a time.
+/// Wall seconds, processor seconds of all threads and peak memory by phase of a run. One phase is
+/// current at a time.
 class Phases {
  public:
   struct Phase {
     std::string name;
-    double wall_s = 0;
+    double wall_s = 0, cpu_s = 0;
     double peak_MB = 0;
   };
 
@@ -25,6 +26,7 @@ class Phases {
   std::vector<Phase> phases_;
   size_t current_ = 0;
   std::chrono::steady_clock::time_point since_;
+  double cpu_since_ = 0;
 };
 
 }  // namespace bight::coupling

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "coupling/errors.h"
+#include "coupling/toml_text.h"
 #include "coupling/units.h"
 #include "coupling/values.h"
 
@@ -85,6 +86,8 @@ Value to_value(const Key& key, const toml::node& node) {
       return to_list(key, node, to_word);
     case Kind::numbers:
       return to_list(key, node, to_number);
+    case Kind::grid:
+      throw not_allowed(key, shown(node));
   }
   return {};
 }
@@ -115,12 +118,42 @@ void take(const std::string& path, const toml::node& node, const std::string& wh
   }
 }
 
+// The values of a key in the grid, as they are written behind --grid: "85, 170, 340".
+std::string listed(const toml::node& node) {
+  if (!node.is_array()) return toml_text(node);
+  std::string text;
+  for (const toml::node& entry : *node.as_array())
+    text += (text.empty() ? "" : ", ") + toml_text(entry);
+  return text;
+}
+
+// Every key of the grid in the order of the lines; TOML's tables are sorted by name.
+void take_grid(const std::string& prefix, const toml::table& table, const std::string& name,
+               std::map<std::pair<uint32_t, uint32_t>, std::string>& grid, Problems& problems) {
+  for (const auto& [key, node] : table) {
+    const std::string path = prefix + std::string(key.str());
+    const auto [line, column] = key.source().begin;
+    if (const toml::table* inner = node.as_table())
+      take_grid(path + '.', *inner, name, grid, problems);
+    else if (!find_key(path))
+      problems.add(fmt::format("{}:{}", name, line), "study.grid." + path, unknown_key(path));
+    else
+      grid[{line, column}] = path + '=' + listed(node);
+  }
+}
+
 void take_table(const std::string& prefix, const toml::table& table, const std::string& name,
                 Values& values, Problems& problems) {
   for (const auto& [key, node] : table) {
     const std::string path = prefix + std::string(key.str());
     const std::string where = fmt::format("{}:{}", name, key.source().begin.line);
-    if (node.is_table() && !(node.as_table()->empty() && find_key(path)))
+    if (const Key* known = find_key(path); known && known->kind == Kind::grid && node.is_table()) {
+      std::map<std::pair<uint32_t, uint32_t>, std::string> grid;
+      take_grid("", *node.as_table(), name, grid, problems);
+      std::vector<std::string> lines;
+      for (const auto& [place, line] : grid) lines.push_back(line);
+      values.set(path, {lines, where});
+    } else if (node.is_table() && !(node.as_table()->empty() && find_key(path)))
       take_table(path + '.', *node.as_table(), name, values, problems);
     else
       take(path, node, where, values, problems);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "coupling/checkpoint.h"
@@ -24,6 +25,14 @@ bool finished(const fs::path& folder) {
   return summary.is_object() && summary.value("status", "") == "finished";
 }
 
+// A study of the same scene may lie in the folder.
+bool nothing_of_a_run(const fs::path& folder) {
+  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename();
+    return name == "runs" || name == "study.csv" || name == "study.json";
+  });
+}
+
 // Only what a run writes; a user's own notes stay.
 void clear(const fs::path& folder) {
   for (const char* name : {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "run.log"})
@@ -42,7 +51,7 @@ void clear(const fs::path& folder) {
 FolderState take_folder(const fs::path& folder, const Scene& scene, bool resume, bool force) {
   if (!fs::exists(folder)) return FolderState::fresh;
   if (!fs::is_directory(folder)) throw InputError(folder.string() + ": not a folder");
-  if (fs::is_empty(folder)) return FolderState::fresh;
+  if (nothing_of_a_run(folder)) return FolderState::fresh;
   if (force) {
     clear(folder);
     return FolderState::fresh;

@@ -118,6 +118,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.sample_spacing = values.number("solid3d.sample_spacing");
   scene.rod_symmetry = values.get<bool>("rod1d.symmetry");
   scene.symmetry = values.get<bool>("solid3d.symmetry");
+  scene.grid = values.get<std::vector<std::string>>("study.grid");
+  scene.extrapolate = values.word("study.extrapolate");
   scene.text = values.toml();
   check_scene(scene, values, problems);
   problems.throw_if_any();

@@ -10,7 +10,8 @@
 
 namespace bight::coupling {
 
-/// What a scene gives for a key, in SI; integers are whole doubles, words are strings.
+/// What a scene gives for a key, in SI; integers are whole doubles, words are strings; a grid is a
+/// list of "key=value, value".
 using Value =
     std::variant<bool, double, std::string, std::vector<double>, std::vector<std::string>>;
 
@@ -49,7 +50,7 @@ class Values {
   }
   double number(std::string_view key) const { return get<double>(key); }
   std::string word(std::string_view key) const { return get<std::string>(key); }
-  /// A scene that reads back to these values.
+  /// A scene that reads back to these values, without what only a study reads.
   std::string toml() const;
 
  private:

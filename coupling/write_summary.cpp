@@ -182,7 +182,8 @@ void write_summary(const RunReport& report, Recorder& recorder) {
   recorder.phases.enter("done");
   for (const Phases::Phase& phase : recorder.phases.list())
     if (phase.name != "done")
-      summary["phases"][phase.name] = {{"wall_s", phase.wall_s}, {"peak_MB", phase.peak_MB}};
+      summary["phases"][phase.name] = {
+          {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}, {"peak_MB", phase.peak_MB}};
   write_whole(recorder.folder() / "summary.json", summary.dump(2) + "\n");
 }
 

@@ -52,7 +52,10 @@ TEST_CASE("the filled-in scene reads back to itself") {
   CHECK(again.title == scene.title);
   for (const Key& key : all_keys()) {
     const std::string name(key.path.substr(key.path.find('.') + 1));
-    if (key.path != "knot.centerline") CHECK(scene.text.find(name + " = ") != std::string::npos);
+    if (key.path == "knot.centerline") continue;
+    // What a study varies is no part of a run: its runs are found again when the grid grows.
+    const bool written = scene.text.find(name + " = ") != std::string::npos;
+    CHECK(written == !key.path.starts_with("study."));
   }
 }
 

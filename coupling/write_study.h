@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupling/study.h"
+#include "coupling/study_cases.h"
+
+namespace bight::coupling {
+
+/// What a user wants to know: which settings give 5 %, 1 % and 0.3 % in T, and what they cost.
+std::vector<std::string> sentences(const Study& plan, const std::vector<StudyRow>& rows,
+                                   const StudyCase& of);
+
+/// A row for each run and fidelity; cells that mean nothing are empty.
+void write_study_csv(const std::filesystem::path& file, const Study& plan,
+                     const std::vector<StudyRow>& rows);
+
+/// The cases: reference, its uncertainty, observed orders, Pareto front, sentences.
+void write_study_json(const std::filesystem::path& file, const Study& plan,
+                      const std::vector<StudyRow>& rows, const std::vector<StudyCase>& cases);
+
+}  // namespace bight::coupling
