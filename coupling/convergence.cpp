@@ -14,7 +14,7 @@ std::optional<double> observed_order(const std::array<double, 3>& h, double diff
   const auto ratio = [&](double p) {
     return (std::pow(h[2], p) - std::pow(h[1], p)) / (std::pow(h[1], p) - std::pow(h[0], p));
   };
-  double low = 0.1, high = 8;
+  double low = 0.4, high = 8;
   if (measured < ratio(low) || measured > ratio(high)) return std::nullopt;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

@@ -8,7 +8,8 @@ namespace bight::coupling {
 
 /// Order p of an error C h^p, from the differences |f2 - f1| and |f3 - f2| of results at sizes
 /// h1 < h2 < h3: (h3^p - h2^p)/(h2^p - h1^p) = |f3 - f2|/|f2 - f1| (Celik et al. 2008, J. Fluids
-/// Eng. 130, 078001). Nothing when there is no such p between 0.1 and 8.
+/// Eng. 130, 078001). Nothing when there is no such p between 0.4 and 8: differences that hardly
+/// fall are noise.
 std::optional<double> observed_order(const std::array<double, 3>& h, double difference12,
                                      double difference23);
 

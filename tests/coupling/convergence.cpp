@@ -19,6 +19,7 @@ TEST_CASE("the order of C h^p is found for any three sizes") {
 TEST_CASE("differences that do not fall have no order") {
   const std::array h = {0.25, 0.5, 1.0};
   CHECK_FALSE(observed_order(h, 1, 1));
+  CHECK_FALSE(observed_order(h, 1, 1.15));  // p = 0.2
   CHECK_FALSE(observed_order(h, 2, 1));
   CHECK_FALSE(observed_order(h, 0, 1));
   CHECK_FALSE(observed_order(h, 1, 0));
