@@ -81,8 +81,10 @@ NewtonResult RodProblem::minimise(System& system, const Vector& x, int max_itera
   NewtonOptions options;
   options.max_iterations = max_iterations;
   options.energy_tolerance = 1e-12 * force * length;
-  // The second part is the round-off of the stretching forces.
-  options.force_tolerance = 1e-8 * force + 1e-12 * rod_.stretching_stiffness;
+  // The second part is the round-off of the stretching and bending forces.
+  const double shortest = *std::min_element(rod_.rest_length.begin(), rod_.rest_length.end());
+  options.force_tolerance = 1e-8 * force + 1e-12 * rod_.stretching_stiffness +
+                            1e-11 * rod_.bending_stiffness / (shortest * shortest);
   options.largest_move = effects_.contact ? std::min(0.5, 0.2 * length) : 0.2 * length;
   options.bound.first_rise = 1e-10 * force * length;
   return newton(system, x, options);
