@@ -32,6 +32,15 @@ rod1d::RodObserver Recorder::watch_rod(const Path& path) {
   progress.begin("rod", path);
   phases.enter("tie");
   rod1d::RodObserver observer;
+  if (scene_.rod && scene_.from_straight) {
+    make_folder(rod_->folder / "tie");
+    observer.on_tie = [this, count = 0, series = Series(rod_->folder / "tie.pvd")](
+                          const rod1d::RodState& state) mutable {
+      const std::string name = fmt::format("tie/tie_{:03}.vtu", count);
+      write_rod_vtu(rod_->folder / name, state, scene_.scales());
+      series.add(count++, name);
+    };
+  }
   observer.on_step = [this](const StepRow& row) {
     phases.enter("write");
     progress.step(row);

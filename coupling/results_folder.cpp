@@ -41,7 +41,8 @@ void clear(const fs::path& folder) {
   for (const char* fidelity : {"rod", "solid"}) {
     fs::remove(folder / fidelity / "force.csv");
     fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
-    for (const char* kind : {"centerline", "vtu", "contacts"})
+    fs::remove(folder / fidelity / "tie.pvd");
+    for (const char* kind : {"centerline", "vtu", "contacts", "tie"})
       fs::remove_all(folder / fidelity / kind);
   }
 }

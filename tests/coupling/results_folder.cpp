@@ -45,19 +45,11 @@ TEST_CASE("resuming where no run of the scene has begun is refused") {
 TEST_CASE("starting over clears what bight writes and leaves the rest") {
   const TemporaryFolder folder;
   folder.write("notes.txt", "");
-  const auto of_a_run = {"scene.toml",
-                         "summary.json",
-                         "run.log",
-                         "compare.csv",
-                         "curvature.csv",
-                         "rod/force.csv",
-                         "rod/rod.pvd",
-                         "rod/vtu/a.vtu",
-                         "rod/centerline/a.csv",
-                         "solid/force.csv",
-                         "solid/solid.pvd",
-                         "solid/vtu/a.vtu",
-                         "solid/centerline/a.csv"};
+  const auto of_a_run = {"scene.toml",      "summary.json",         "run.log",
+                         "compare.csv",     "curvature.csv",        "rod/force.csv",
+                         "rod/rod.pvd",     "rod/tie.pvd",          "rod/tie/a.vtu",
+                         "rod/vtu/a.vtu",   "rod/centerline/a.csv", "solid/force.csv",
+                         "solid/solid.pvd", "solid/vtu/a.vtu",      "solid/centerline/a.csv"};
   for (const std::filesystem::path name : of_a_run) {
     std::filesystem::create_directories(folder.path() / name.parent_path());
     folder.write(name.string(), "");
