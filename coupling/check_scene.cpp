@@ -28,7 +28,9 @@ class Check {
     if (scene_.from_straight && values_.has("knot.centerline"))
       return refuse("knot.start", "a centerline is tied already; only knot.type can be tied");
     try {
-      knot_start(scene_);
+      scene_.determinant = checked_determinant(scene_);
+      if (scene_.determinant == 1)
+        warn("knot.centerline", "its determinant is 1: an open curve, hardly a knot");
     } catch (const InputError& error) {
       refuse(scene_.centerline.empty() ? "knot.type" : "knot.centerline", error.what());
     }

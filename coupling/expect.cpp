@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "coupling/effects.h"
+#include "rod1d/knots.h"
 #include "solid3d/mesh.h"
 
 namespace bight::coupling {
@@ -15,6 +16,17 @@ std::string names(const Scene& scene, bool AskedEffect::*in) {
   for (const AskedEffect& effect : asked_effects(scene))
     if (effect.*in) text += (text.empty() ? "" : ", ") + effect.name;
   return text;
+}
+
+std::string knot_line(const Scene& scene) {
+  if (scene.centerline.empty())
+    return fmt::format("knot   {}, determinant {}, {}\n", scene.knot, scene.determinant,
+                       scene.from_straight ? "tied from a straight rod" : "laid out loosely");
+  std::string like;
+  for (const rod1d::Knot& knot : rod1d::all_knots())
+    if (knot.determinant == scene.determinant) like = fmt::format(", that of the {}", knot.name);
+  return fmt::format("knot   {}, determinant {}{}\n", scene.centerline.filename().string(),
+                     scene.determinant, like);
 }
 
 std::string rod_line(const Scene& scene) {
@@ -59,6 +71,7 @@ std::string expectations(const Scene& scene) {
       scales.force() / normalised_force(1));
   for (const double ebar : scene.path.waypoints) text += fmt::format(" -> {:g}", ebar);
   text += fmt::format(", {} states recorded\n", scene.path.record.size());
+  text += knot_line(scene);
   if (scene.rod || scene.solid) text += rod_line(scene);
   if (scene.solid) text += solid_line(scene);
   for (const std::string& warning : scene.warnings) text += "warning: " + warning + "\n";

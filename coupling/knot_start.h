@@ -9,4 +9,8 @@ namespace bight::coupling {
 /// tie. Throws InputError when there is no such start.
 Polyline knot_start(const Scene& scene);
 
+/// Determinant of the scene's knot. Throws InputError for a centerline whose strands run through
+/// each other, or that the rod's segments cannot follow.
+int checked_determinant(const Scene& scene);
+
 }  // namespace bight::coupling

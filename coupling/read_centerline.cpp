@@ -8,6 +8,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/read_table.h"
+#include "coupling/spline.h"
 
 namespace bight::coupling {
 namespace {
@@ -26,12 +27,11 @@ Polyline read_centerline(const std::filesystem::path& file) {
     const std::vector<double>& row = table.rows[i];
     const auto place = [&] { return fmt::format("{}:{}", file.string(), table.lines[i]); };
     if (row.size() < 3) throw InputError(place() + ": a point needs x, y and z");
-    line.emplace_back(row[columns[0]], row[columns[1]], row[columns[2]]);
-    if (line.size() > 1 && line.back() == line[line.size() - 2])
-      throw InputError(place() + ": the point before is at the same place");
+    const Vector3 point(row[columns[0]], row[columns[1]], row[columns[2]]);
+    if (line.empty() || point != line.back()) line.push_back(point);
   }
   if (line.size() < fewest_points)
-    throw InputError(fmt::format("{}: {} points; a knot needs at least {}", file.string(),
+    throw InputError(fmt::format("{}: {} different points; a knot needs at least {}", file.string(),
                                  line.size(), fewest_points));
   if ((line.back() - line.front()).norm() < 1e-3 * arc_length(line))
     throw InputError(file.string() + ": the curve is closed; its ends must lie apart to be pulled");
@@ -42,6 +42,24 @@ double arc_length(const Polyline& line) {
   double length = 0;
   for (size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
   return length;
+}
+
+Polyline evenly_spaced(const Polyline& line, double shortest, int parts) {
+  Polyline points{line.front()};
+  std::vector<double> s{0};
+  const auto add = [&](const Vector3& point) {
+    s.push_back(s.back() + (point - points.back()).norm());
+    points.push_back(point);
+  };
+  for (size_t i = 1; i + 1 < line.size(); ++i)
+    if ((line[i] - points.back()).norm() >= shortest &&
+        (line[i] - line.back()).norm() >= shortest)
+      add(line[i]);
+  add(line.back());
+  const Spline curve(s, points);
+  Polyline even;
+  for (int i = 0; i <= parts; ++i) even.push_back(curve.at(s.back() * i / parts).r);
+  return even;
 }
 
 void align_with_z(Polyline& line) {

@@ -22,6 +22,7 @@ struct Scene {
   std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
   bool from_straight = false;        ///< that knot is tied from a straight rod
   std::filesystem::path centerline;  ///< file with the tied start; empty with a knot
+  int determinant = 0;               ///< of that knot: 1 no knot, 3 overhand, 5 figure-eight
   bool finish_turns = true, contact = true, twist = false, symmetry = true, rod_symmetry = true;
   double finish_turn = 0;  ///< of a clamped finish end of the rod [rad]
   double friction = 0;

@@ -115,6 +115,7 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
   place_grips(rod_, end_to_end(start_ebar_), x);
   if (symmetry_) symmetry_->impose(x);
   refuse_overlap(x);
+  refuse_other_knot(knot_determinant(start));
   if (parameters.twist) source_ = twist_free_frames(rod_, x);
   if (parameters.twist && symmetry_) symmetry_->align(source_);
   history_ = {x, source_, {}};
@@ -134,6 +135,16 @@ void RodModel::refuse_overlap(const Vector& x) {
                                 std::to_string(rod_.segments()) + " segments, overlap by " +
                                 std::to_string(overlap) +
                                 " D; which of them belongs on which side is not known");
+}
+
+/// Chords may cut through other strands. A determinant of 0 means that they meet.
+void RodModel::refuse_other_knot(int given) const {
+  if (given == 0) throw std::invalid_argument("the start meets itself: its knot is not known");
+  if (determinant_ != given)
+    throw std::invalid_argument("the start, of determinant " + std::to_string(given) + ", cut into " +
+                                std::to_string(rod_.segments()) +
+                                " segments is another knot, of determinant " +
+                                std::to_string(determinant_));
 }
 
 /// The start cut into the rod's segments, whose undeformed lengths it fixes.

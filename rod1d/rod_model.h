@@ -72,6 +72,7 @@ class RodModel final : public PathModel {
   double end_to_end(double ebar) const { return length_ - ebar; }
   bool choose_pin();
   void refuse_overlap(const Vector& x);
+  void refuse_other_knot(int given) const;
   void set_equations();
   Vector tangent(double ebar) const;
   void freeze(const Vector& x);

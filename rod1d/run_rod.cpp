@@ -160,6 +160,10 @@ PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObser
 
 }  // namespace
 
+int check_start(const RodParameters& parameters) {
+  return RodModel(parameters, parameters.start).determinant();
+}
+
 RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) {
   check(parameters);
   const OneThread one_thread;

@@ -1,6 +1,9 @@
 #include "coupling/read_centerline.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "coupling/errors.h"
 #include "temporary_folder.h"
@@ -46,6 +49,27 @@ TEST_CASE("a centerline is aligned without being bent") {
   CHECK(line.front().norm() < 1e-15);
   CHECK((line.back() - Vector3(0, 0, reach)).norm() < 1e-12);
   CHECK(arc_length(line) == Approx(length).epsilon(1e-12));
+}
+
+TEST_CASE("repeated, crowded and missing points are made up for") {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i <= 200; ++i) {  // a helix; a gap of 18 points, a crowd, repeated points
+    if (i > 100 && i < 119) continue;
+    for (int copy = 0; copy < (i % 7 == 0 ? 3 : 1); ++copy) {
+      const double t = 0.03 * (i + (i > 40 && i < 60 ? 1e-4 * copy : 0));
+      text += fmt::format("{:.12g},{:.12g},{:.12g}\n", std::cos(t), std::sin(t), 0.3 * t);
+    }
+  }
+  const Polyline line = read_centerline(folder.write("scan", text));
+  CHECK(line.size() < 200);
+  const Polyline even = evenly_spaced(line, 0.01, 500);
+  REQUIRE(even.size() == 501);
+  const double length = 6 * std::hypot(1, 0.3);
+  CHECK(arc_length(even) == Approx(length).epsilon(1e-3));
+  for (size_t i = 1; i < even.size(); ++i)
+    CHECK((even[i] - even[i - 1]).norm() == Approx(length / 500).epsilon(0.02));
+  for (const Vector3& p : even) CHECK(std::hypot(p.x(), p.y()) == Approx(1).epsilon(0.005));
 }
 
 TEST_CASE("what is no open curve is refused with file and line") {
