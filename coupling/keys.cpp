@@ -118,6 +118,8 @@ const std::vector<Key>& all_keys() {
       {"rod1d.symmetry", boolean, "", {}, {}, "true", "",
        "Of a knot with a two-fold axis or an inversion, simulate one half; the other is its image",
        Fineness::choice},
+      {"rod1d.stretch_stiffness_factor", number, "", {1, 1e4}, {}, "1", "",
+       "Stretching stiffness over that of the section: 100 makes the rod almost inextensible"},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
        "Largest overlap of strands aimed at, in D", Fineness::size},
 

@@ -109,6 +109,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.segments = static_cast<int>(values.number("rod1d.segments"));
   scene.follow_knot = values.get<bool>("rod1d.follow_knot");
   scene.rod_penetration = values.number("rod1d.penetration");
+  scene.stretch_stiffness_factor = values.number("rod1d.stretch_stiffness_factor");
   scene.section_elements = static_cast<int>(values.number("solid3d.section_elements"));
   scene.seed_ebar = values.number("solid3d.seed_ebar");
   scene.axial_ratio = values.number("solid3d.axial_ratio");
@@ -167,6 +168,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.follow_knot = scene.follow_knot;
   rod.symmetry = scene.rod_symmetry;
   rod.penetration = scene.rod_penetration;
+  rod.stretch_stiffness_factor = scene.stretch_stiffness_factor;
   rod.path = scene.path;
   if (!scene.rod) rod.path = path_to_seed(scene.path, scene.seed_ebar);
   if (scene.solid && std::ranges::count(rod.path.record, scene.seed_ebar) == 0)

@@ -35,7 +35,7 @@ struct Scene {
   Path path;
   int segments = 0;
   bool follow_knot = true;
-  double rod_penetration = 0;
+  double rod_penetration = 0, stretch_stiffness_factor = 1;
   int section_elements = 0;
   double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;
   double contact_stiffness = 0, solid_penetration = 0, sample_spacing = 0;

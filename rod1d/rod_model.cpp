@@ -66,6 +66,7 @@ double loose_tension(const Rod& rod, double ebar) {
 
 Rod free_rod(const RodParameters& parameters) {
   Rod rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
+  rod.stretching_stiffness *= parameters.stretch_stiffness_factor;
   bend_naturally(rod, parameters.natural_curvature, parameters.natural_twist);
   return rod;
 }

@@ -33,6 +33,8 @@ void check(const RodParameters& parameters) {
     throw std::invalid_argument("natural curvature and twist need the effect twist");
   if (parameters.damping > 0 && !parameters.inertia)
     throw std::invalid_argument("damping needs the effect inertia");
+  if (!(parameters.stretch_stiffness_factor >= 1))
+    throw std::invalid_argument("a rod cannot be softer in stretch than its section");
   if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");
   if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
 }

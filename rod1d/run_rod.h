@@ -36,6 +36,7 @@ struct RodParameters {
   bool symmetry = true;        ///< one half is simulated if the start has a two-fold axis
   double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
+  double stretch_stiffness_factor = 1;  ///< EA of the rod over that of its section
 };
 
 /// A piece of a strand, a tenth of D long, that presses on another strand.
