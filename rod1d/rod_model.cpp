@@ -51,6 +51,8 @@ constexpr int most_motions = 20;
 constexpr double slight_roll = 0.05;
 /// Solves of one step with contact stiffness and friction taken anew, at most.
 constexpr int max_passes = 12;
+/// Residual over the force scale up to which a search that cannot go on has converged.
+constexpr double stalled_residual = 1e-3;
 /// Share of the tension that further solves may still change when friction has settled.
 constexpr double settled_change = 5e-4;
 /// Iterations with the last state's friction, which bring contact forces into range (where a few do
@@ -391,6 +393,10 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
   options.largest_move = 1;
   options.bound.first_rise = 1e-8 * force_scale_;  // round-off of the energy
   NewtonResult result = newton(equations_->system, guess, options);
+  // On very fine meshes the energy's round-off ends the search before the residual's does.
+  if (result.status == NewtonStatus::stalled && result.decrement <= options.energy_tolerance &&
+      result.residual <= stalled_residual * force_scale_)
+    result.status = NewtonStatus::converged;
   // A knot that hangs rolls over where its centre of mass comes above the axis: too far for Newton,
   // which may also find the balance in between.
   for (int k = 0; k < most_motions && weighs() && !rubs_; ++k) {
