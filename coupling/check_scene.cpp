@@ -37,6 +37,7 @@ class Check {
   }
 
   bool path() {
+    if (!scene_.forces.empty()) return force();
     bool fits = true;
     const auto refuse_ebar = [&](const std::string& what) {
       refuse("path.ebar", what);
@@ -59,6 +60,17 @@ class Check {
     for (const double ebar : scene_.path.record) on_path("path.record", ebar);
     if (scene_.solid) on_path("solid3d.seed_ebar", scene_.seed_ebar);
     return fits;
+  }
+
+  bool force() {
+    if (values_.has("path.ebar"))
+      return refuse("path.force", "give either path.ebar or path.force, not both"), false;
+    if (scene_.solid)
+      refuse("path.force", "the solid follows ebar: only for fidelities = [\"rod\"]");
+    if (scene_.inertia) refuse("path.force", "it is met by equilibria, without effects.inertia");
+    if (values_.has("path.record"))
+      refuse("path.record", "with path.force the states at the forces are recorded");
+    return true;
   }
 
   bool length() {

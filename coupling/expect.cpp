@@ -63,14 +63,15 @@ std::string expectations(const Scene& scene) {
   const Scales scales = scene.scales();
   std::string text = fmt::format(
       "{}\nL0 = {:.4g} m = {:.5g} D, D = {:.4g} m, E = {:.4g} Pa, B = {:.4g} N m^2; Tbar = 1 is "
-      "{:.4g} N\n"
-      "ebar",
+      "{:.4g} N\n",
       scene.title.empty() ? scene.name : scene.title, scene.length, scene.slenderness(),
       scene.diameter, scene.youngs_modulus,
       scales.force() * scales.length() * scales.length() / normalised_force(4),
       scales.force() / normalised_force(1));
+  text += scene.forces.empty() ? "ebar" : "force";
   for (const double ebar : scene.path.waypoints) text += fmt::format(" -> {:g}", ebar);
-  text += fmt::format(", {} states recorded\n", scene.path.record.size());
+  for (const double force : scene.forces) text += fmt::format(" -> {:g} N", force);
+  text += fmt::format(", {} states recorded\n", scene.path.record.size() + scene.forces.size());
   text += knot_line(scene);
   if (scene.rod || scene.solid) text += rod_line(scene);
   if (scene.solid) text += solid_line(scene);

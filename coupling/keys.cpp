@@ -100,11 +100,13 @@ const std::vector<Key>& all_keys() {
       {"effects.damping", quantity, "1/s", {0, 1e9}, {}, "0", "",
        "Rayleigh's alpha: force against motion per mass and velocity; needs inertia"},
 
-      {"path.ebar", numbers, "", {-1e5, 1e5}, {}, "", "required",
+      {"path.ebar", numbers, "", {-1e5, 1e5}, {}, "", "required without path.force",
        "Waypoints of (L0 - L)/D: tightening when falling, loosening when rising"},
+      {"path.force", quantities, "N", above(0), {}, "", "none: path.ebar is followed",
+       "Waypoints of the pulling force instead of path.ebar, each recorded; the rod alone"},
       {"path.max_step", number, "", {1e-4, 100}, {}, "0.5", "",
        "Largest step in ebar; the solver may take smaller ones", Fineness::size},
-      {"path.record", numbers, "", {-1e5, 1e5}, {}, "", "the waypoints",
+      {"path.record", numbers, "", {-1e5, 1e5}, {}, "", "the waypoints of ebar",
        "ebar at which full states are written"},
       {"path.speed", quantity, "m/s", above(0), {}, "0.0005", "",
        "Speed of the moving end; used by effects that know time"},
@@ -187,6 +189,9 @@ std::string allowed(const Key& key) {
       return fmt::format("a list of: {}", fmt::join(key.words, ", "));
     case Kind::numbers:
       return "a list of numbers in " + key.range.text();
+    case Kind::quantities:
+      return fmt::format("a list of quantities such as \"1 {0}\" (plain numbers are in {0}) in {1}",
+                         key.unit, key.range.text());
     case Kind::text:
       return "text";
     case Kind::file:

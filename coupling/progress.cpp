@@ -59,8 +59,14 @@ void Progress::step(const StepRow& row) {
     std::fflush(stdout);
     return;
   }
+  if (length_ == 0) {  // the way to a force is not known
+    fmt::print("\r\033[K{:<5} ebar {:.2f}  Tbar {:.4g}", fidelity_, row.ebar,
+               normalised_force(row.tension));
+    std::fflush(stdout);
+    return;
+  }
   covered_ += std::abs(row.increment);
-  const double done = length_ > 0 ? std::min(1.0, covered_ / length_) : 1.0;
+  const double done = std::min(1.0, covered_ / length_);
   const int full = static_cast<int>(done * bar_width);
   const double left = done > 0 ? row.wall_s * (1 - done) / done : 0;
   fmt::print("\r\033[K{:<5} [{:#<{}}{:<{}}] ebar {:.2f}  Tbar {:.4g}  {} left", fidelity_, "", full,

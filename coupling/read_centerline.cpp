@@ -52,8 +52,7 @@ Polyline evenly_spaced(const Polyline& line, double shortest, int parts) {
     points.push_back(point);
   };
   for (size_t i = 1; i + 1 < line.size(); ++i)
-    if ((line[i] - points.back()).norm() >= shortest &&
-        (line[i] - line.back()).norm() >= shortest)
+    if ((line[i] - points.back()).norm() >= shortest && (line[i] - line.back()).norm() >= shortest)
       add(line[i]);
   add(line.back());
   const Spline curve(s, points);

@@ -35,7 +35,8 @@ double checked(const Key& key, double value, const std::string& text) {
 }
 
 double to_number(const Key& key, const toml::node& node) {
-  if (key.kind == Kind::quantity && node.is_string()) {
+  const bool has_unit = key.kind == Kind::quantity || key.kind == Kind::quantities;
+  if (has_unit && node.is_string()) {
     const std::string text = **node.as_string();
     try {
       return checked(key, parse_quantity(text, key.unit), '"' + text + '"');
@@ -85,6 +86,7 @@ Value to_value(const Key& key, const toml::node& node) {
     case Kind::words:
       return to_list(key, node, to_word);
     case Kind::numbers:
+    case Kind::quantities:
       return to_list(key, node, to_number);
     case Kind::grid:
       throw not_allowed(key, shown(node));
@@ -211,6 +213,10 @@ Values read_values(const std::string& text, const std::string& name,
     else if (key.otherwise == "required")
       problems.add(name, path, "missing; write " + allowed(key));
   }
+  if (!values.has("path.ebar") && !values.has("path.force") && !problems.about("path.ebar") &&
+      !problems.about("path.force"))
+    problems.add(name, "path.ebar",
+                 "missing; write " + allowed(*find_key("path.ebar")) + ", or give path.force");
   return values;
 }
 

@@ -41,8 +41,10 @@ void derive_defaults(Values& values) {
          !straight || values.number("effects.friction") > 0 ||
              values.word("ends.finish") == "clamped");
   const auto waypoints = values.get<std::vector<double>>("path.ebar");
-  derive(values, "path.record", waypoints);
-  derive(values, "solid3d.seed_ebar", waypoints.front());
+  if (!waypoints.empty()) {
+    derive(values, "path.record", waypoints);
+    derive(values, "solid3d.seed_ebar", waypoints.front());
+  }
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
   derive(values, "rod1d.follow_knot", straight && !values.get<bool>("effects.inertia"));
@@ -105,6 +107,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.time_tolerance = values.number("path.time_tolerance");
   scene.path.waypoints = values.get<std::vector<double>>("path.ebar");
   scene.path.record = values.get<std::vector<double>>("path.record");
+  scene.forces = values.get<std::vector<double>>("path.force");
   scene.path.max_step = values.number("path.max_step");
   scene.segments = static_cast<int>(values.number("rod1d.segments"));
   scene.follow_knot = values.get<bool>("rod1d.follow_knot");
@@ -170,6 +173,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.penetration = scene.rod_penetration;
   rod.stretch_stiffness_factor = scene.stretch_stiffness_factor;
   rod.path = scene.path;
+  for (const double force : scene.forces) rod.forces.push_back(force / scene.scales().force());
   if (!scene.rod) rod.path = path_to_seed(scene.path, scene.seed_ebar);
   if (scene.solid && std::ranges::count(rod.path.record, scene.seed_ebar) == 0)
     rod.path.record.push_back(scene.seed_ebar);

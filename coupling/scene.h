@@ -33,6 +33,7 @@ struct Scene {
   double speed = 0;    ///< of the moving end [m/s]
   double time_tolerance = 0;
   Path path;
+  std::vector<double> forces;  ///< waypoints of the pulling force [N]; then path has none
   int segments = 0;
   bool follow_knot = true;
   double rod_penetration = 0, stretch_stiffness_factor = 1;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/path_steps.h"
+
 namespace bight {
 
 namespace {
 
-constexpr int easy_iterations = 10;  ///< a solve with fewer lets the step grow
-constexpr double growth = 1.5;
 constexpr double same_ebar = 1e-9;
 
 /// Where the path must land between two waypoints: record values on the way, then the waypoint.
@@ -33,33 +33,11 @@ bool recorded(const Path& path, double ebar) {
 
 PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer,
                    const PathProgress& from) {
-  PathOutcome outcome = from.so_far;
-  const auto give_up = [&](PathStatus status, std::string reason) {
-    outcome.status = status;
-    outcome.reason = std::move(reason);
-    return outcome;
-  };
-  int cutbacks = 0;
-  std::string cut_reason;
+  PathSteps steps(model, observer, from.so_far);
   const auto try_step = [&](double ebar, double increment) {
-    const NewtonResult result = model.solve(model.predict(ebar), ebar);
-    outcome.iterations += result.iterations;
-    outcome.factorisations += result.factorisations;
-    if (!result.ok()) {
-      ++cutbacks, ++outcome.cutbacks;
-      cut_reason = result.reason;
-      return -1;
-    }
-    StepRow row = model.accept(result, ebar);
-    row.ebar = ebar;
-    row.increment = increment;
-    row.newton_iterations = result.iterations;
-    row.cutbacks = cutbacks;
-    row.cut_reason = cut_reason;
-    cutbacks = 0;
-    cut_reason.clear();
-    ++outcome.steps;
-    observer.on_step(row);
+    const NewtonResult result = steps.solve(ebar);
+    if (!result.ok()) return -1;
+    steps.accept(result, ebar, increment);
     if (recorded(path, ebar)) observer.on_record(ebar);
     return result.iterations;
   };
@@ -67,13 +45,13 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
   const bool begun = from.leg > 0;
   double ebar = begun ? from.ebar : path.waypoints.front();
   if (!begun && try_step(ebar, 0) < 0)
-    return give_up(PathStatus::gave_up, "no equilibrium at the first ebar: " + cut_reason);
+    return steps.stop(PathStatus::gave_up, "no equilibrium at the first ebar: " + steps.cut_reason);
 
   double step = begun ? from.step : path.max_step;
   for (size_t w = begun ? from.leg : 1; w < path.waypoints.size(); ++w)
     for (const double stop : stops(path, ebar, path.waypoints[w]))
       while (std::abs(stop - ebar) > same_ebar) {
-        if (observer.interrupted()) return give_up(PathStatus::interrupted, "interrupted");
+        if (observer.interrupted()) return steps.stop(PathStatus::interrupted, "interrupted");
         // Equal steps up to the stop, none longer than `step`.
         const double count = std::ceil(std::abs(stop - ebar) / step - same_ebar);
         const double increment = (stop - ebar) / std::max(1.0, count);
@@ -82,16 +60,16 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
         if (iterations < 0) {
           step = 0.5 * std::abs(increment);
           if (step < path.min_step)
-            return give_up(PathStatus::gave_up, "the step became smaller than " +
-                                                    std::to_string(path.min_step) + ": " +
-                                                    cut_reason);
+            return steps.stop(PathStatus::gave_up, "the step became smaller than " +
+                                                       std::to_string(path.min_step) + ": " +
+                                                       steps.cut_reason);
           continue;
         }
         ebar = target;
-        if (iterations <= easy_iterations) step = std::min(path.max_step, growth * step);
-        observer.on_progress({w, ebar, step, outcome});
+        if (iterations <= easy_iterations) step = std::min(path.max_step, step_growth * step);
+        observer.on_progress({w, ebar, step, steps.outcome});
       }
-  return outcome;
+  return steps.outcome;
 }
 
 }  // namespace bight

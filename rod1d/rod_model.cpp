@@ -144,8 +144,8 @@ void RodModel::refuse_overlap(const Vector& x) {
 void RodModel::refuse_other_knot(int given) const {
   if (given == 0) throw std::invalid_argument("the start meets itself: its knot is not known");
   if (determinant_ != given)
-    throw std::invalid_argument("the start, of determinant " + std::to_string(given) + ", cut into " +
-                                std::to_string(rod_.segments()) +
+    throw std::invalid_argument("the start, of determinant " + std::to_string(given) +
+                                ", cut into " + std::to_string(rod_.segments()) +
                                 " segments is another knot, of determinant " +
                                 std::to_string(determinant_));
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "mechanics/path.h"
+#include "mechanics/force_path.h"
 #include "rod1d/effects.h"
 #include "rod1d/grip.h"
 #include "rod1d/run_rod.h"
@@ -15,7 +15,7 @@
 namespace bight::rod1d {
 
 /// The rod as follow() sees it: its accepted states, how the next is guessed, solved and measured.
-class RodModel final : public PathModel {
+class RodModel final : public ForceModel {
  public:
   RodModel(const RodParameters& parameters, const Polyline& start);
   ~RodModel() override;
@@ -23,6 +23,9 @@ class RodModel final : public PathModel {
   Vector predict(double ebar) const override;
   NewtonResult solve(const Vector& guess, double ebar) override;
   StepRow accept(const NewtonResult& result, double ebar) override;
+  double tension(const NewtonResult& result) const override {
+    return measured_forces(result).tension();
+  }
 
   /// ebar of the start, as it was given.
   double start_ebar() const { return start_ebar_; }

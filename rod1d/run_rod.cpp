@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "mechanics/knot_type.h"
@@ -36,7 +37,12 @@ void check(const RodParameters& parameters) {
   if (!(parameters.stretch_stiffness_factor >= 1))
     throw std::invalid_argument("a rod cannot be softer in stretch than its section");
   if (parameters.segments < 5) throw std::invalid_argument("a rod needs at least 5 segments");
-  if (parameters.path.waypoints.empty()) throw std::invalid_argument("the path has no waypoint");
+  if (parameters.path.waypoints.empty() == parameters.forces.empty())
+    throw std::invalid_argument("the path needs waypoints, of ebar or of the force");
+  if (!parameters.forces.empty() && parameters.inertia)
+    throw std::invalid_argument("a prescribed force is met by equilibria, without inertia");
+  for (const double force : parameters.forces)
+    if (!(force > 0)) throw std::invalid_argument("a knot is pulled by a force above zero");
 }
 
 constexpr double start_points = 10;  ///< of a start, per diameter
@@ -160,14 +166,51 @@ PathOutcome tie(RodModel& model, const RodParameters& parameters, const RodObser
   return outcome;
 }
 
+/// Largest part of a rod that is put into the knot to begin a path of forces with.
+constexpr double loosest_part = 0.7;
+
+double loosest_ebar(const RodParameters& parameters) {
+  return std::min(loosest_part * parameters.length, parameters.length - shortest_reach);
+}
+
+/// An ebar at which the knot takes less than the first force, if the rod has room for it. The
+/// loose-knot law (Audoly et al. 2007) with friction, T = 2 pi^2 B/ebar^2 (1 + 0.555 mu
+/// sqrt(ebar)), thrice, as other knots and short rods lie above it; tight knots do not follow it at
+/// all.
+double looser_than(const RodParameters& parameters) {
+  constexpr double margin = 3, tightest = 10, bending_stiffness = std::numbers::pi / 64;
+  double ebar = tightest;
+  for (int k = 0; k < 30; ++k)
+    ebar = std::numbers::pi * std::sqrt(2 * margin * bending_stiffness / parameters.forces.front() *
+                                        (1 + 0.555 * parameters.friction * std::sqrt(ebar)));
+  const double tied_from = parameters.friction > 0 ? mobilising : 0;
+  return std::min({std::max(ebar, tightest), loosest_ebar(parameters),
+                   parameters.length - shortest_reach - tied_from});
+}
+
+/// Through the forces, from where the tied knot is.
+PathOutcome follow_forces(const RodParameters& parameters, RodModel& model,
+                          const PathObserver& observer) {
+  ForcePath path;
+  path.forces = parameters.forces;
+  path.first_ebar = parameters.path.waypoints.front();
+  path.highest_ebar = loosest_ebar(parameters);
+  path.lowest_ebar = -parameters.length;  // stretched to twice its length
+  path.max_step = parameters.path.max_step;
+  path.min_step = parameters.path.min_step;
+  return bight::follow_forces(path, model, observer);
+}
+
 }  // namespace
 
 int check_start(const RodParameters& parameters) {
   return RodModel(parameters, parameters.start).determinant();
 }
 
-RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) {
-  check(parameters);
+RodResult run_rod(const RodParameters& asked, const RodObserver& observer) {
+  check(asked);
+  RodParameters parameters = asked;
+  if (!asked.forces.empty()) parameters.path.waypoints = {looser_than(asked)};
   const OneThread one_thread;
   RodResult result;
   const auto began = std::chrono::steady_clock::now();
@@ -200,7 +243,8 @@ RodResult run_rod(const RodParameters& parameters, const RodObserver& observer) 
     observer.on_record(result.states.back());
   };
   PathModel& followed = timed ? static_cast<PathModel&>(*timed) : model;
-  result.outcome = follow(parameters.path, followed, path_observer);
+  result.outcome = parameters.forces.empty() ? follow(parameters.path, followed, path_observer)
+                                             : follow_forces(parameters, model, path_observer);
   result.seconds["path"] = seconds_since(tied);
   for (const auto& [phase, seconds] : model.seconds()) result.seconds[phase] = seconds;
   return result;

@@ -37,6 +37,8 @@ struct RodParameters {
   double penetration = 0.002;  ///< largest overlap aimed at [D]
   Path path;
   double stretch_stiffness_factor = 1;  ///< EA of the rod over that of its section
+  /// Waypoints of the pulling force [E D^2], each a recorded state; then path has none.
+  std::vector<double> forces;
 };
 
 /// A piece of a strand, a tenth of D long, that presses on another strand.

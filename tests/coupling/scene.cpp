@@ -56,7 +56,7 @@ TEST_CASE("the filled-in scene reads back to itself") {
   CHECK(again.title == scene.title);
   for (const Key& key : all_keys()) {
     const std::string name(key.path.substr(key.path.find('.') + 1));
-    if (key.path == "knot.centerline") continue;
+    if (key.path == "knot.centerline" || key.path == "path.force") continue;
     // What a study varies is no part of a run: its runs are found again when the grid grows.
     const bool written = scene.text.find(name + " = ") != std::string::npos;
     CHECK(written == !key.path.starts_with("study."));
@@ -265,5 +265,27 @@ TEST_CASE("a centerline whose strands run through each other is refused, a sligh
 TEST_CASE("points that are too far apart for their knot are refused, as are too few segments") {
   using Catch::Contains;
   CHECK_THAT(about_scan(scan("figure-eight", 19), {"rod.length=0.659"}), Contains("too far apart"));
-  CHECK_THAT(about_scan(scan("figure-eight"), {longer, "rod1d.segments=5"}), Contains("5 segments"));
+  CHECK_THAT(about_scan(scan("figure-eight"), {longer, "rod1d.segments=5"}),
+             Contains("5 segments"));
+}
+
+TEST_CASE("a pulling force is a path for the rod alone, in newtons") {
+  using Catch::Contains;
+  const TemporaryFolder folder;
+  const std::string pulled = small_scene_with("ebar = [30, 20]", "force = [\"50 mN\", 1]");
+  const Scene scene = read_scene(folder.write("pulled.toml", pulled), {"fidelities=rod"});
+  CHECK(scene.forces == std::vector<double>{0.05, 1});
+  CHECK(rod_parameters(scene).forces[1] == Approx(1 / (1.25e6 * 8.3e-3 * 8.3e-3)));
+  CHECK(rod_parameters(scene).path.waypoints.empty());
+  CHECK_THAT(expectations(scene), Contains("force -> 0.05 N -> 1 N, 2 states"));
+  CHECK(read_scene(folder.write("again.toml", scene.text), {}).text == scene.text);
+  CHECK_THAT(complaint(pulled), Contains(":7") && Contains("path.force") && Contains("ebar: only"));
+  const auto refused = [&](const std::string& setting) {
+    return complaint(pulled, {"fidelities=rod", setting});
+  };
+  CHECK_THAT(refused("path.ebar=[30, 20]"), Contains("either path.ebar or path.force"));
+  CHECK_THAT(refused("path.force=-1 N"), Contains("(0, inf)"));
+  CHECK_THAT(refused("path.force=1 m"), Contains("unit of N"));
+  CHECK_THAT(refused("path.record=20"), Contains("path.record"));
+  CHECK_THAT(refused("effects.inertia=true"), Contains("effects.inertia"));
 }
