@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/gmres.h"
 #include "mechanics/newton_direction.h"
@@ -10,6 +11,7 @@ namespace bight {
 
 namespace {
 
+/// Of GMRES: products with the tangent, and the part of the right hand side that may be left.
 constexpr int most_products = 12;
 constexpr double linear_tolerance = 1e-3;
 /// Decrements below this many tolerances are those of steps that need no search.
@@ -59,12 +61,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");
     result.decrement = std::abs(g.dot(step));
 
-    Vector dx = unknowns.expand(x, step);
-    for (const auto& effect : assembler.effects()) effect->recover(x, dx);
-    const auto moved = dx.head(unknowns.coordinates());
-    double longest = std::min(1.0, options.largest_move / moved.cwiseAbs().maxCoeff());
-    for (const auto& effect : assembler.effects())
-      longest = std::min(longest, effect->longest_step(x, dx));
+    const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
     if (longest == 1 && result.decrement <= small_step * options.energy_tolerance) {
       system.advance(x, dx);
       continue;

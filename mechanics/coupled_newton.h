@@ -21,8 +21,9 @@ class FollowingForces {
 /// preconditioned by the factorisation of H: H^-1 F is small in rank and size, so a few products
 /// do.
 ///
-/// There is no energy to search along a step: from a poor start it fails (`stalled`, or
-/// `too_many_iterations`), and minimisations at frozen forces have to be taken instead.
+/// There is no energy to minimise: the frozen one only bounds a wild step, and may rise by what the
+/// step is predicted to change. From a poor start it fails (`stalled`, or `too_many_iterations`),
+/// and minimisations at frozen forces have to be taken instead.
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
                             const NewtonOptions& options);
 

@@ -62,6 +62,26 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
   return false;
 }
 
+Move move_by(const Assembler& assembler, const Vector& x, const Vector& step, double largest_move) {
+  const Unknowns& unknowns = assembler.unknowns();
+  Move move{unknowns.expand(x, step)};
+  for (const auto& effect : assembler.effects()) effect->recover(x, move.dx);
+  const auto moved = move.dx.head(unknowns.coordinates());
+  move.longest = std::min(1.0, largest_move / moved.cwiseAbs().maxCoeff());
+  for (const auto& effect : assembler.effects())
+    move.longest = std::min(move.longest, effect->longest_step(x, move.dx));
+  return move;
+}
+
+bool stable(Assembler& assembler, const Vector& x) {
+  Vector gradient;
+  assembler.refresh(x);
+  assembler.assemble(x, Order::hessian, gradient);
+  SparseCholesky cholesky;
+  cholesky.analyse(assembler.hessian(), Ordering::minimum_degree);
+  return cholesky.factor(assembler.hessian());
+}
+
 NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
                     const NewtonObserver& observer) {
   Assembler& assembler = system.assembler;
@@ -97,12 +117,7 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
     if (result.decrement <= options.energy_tolerance && result.residual <= options.force_tolerance)
       return finish(NewtonStatus::converged, "");
 
-    Vector dx = unknowns.expand(x, step);
-    for (const auto& effect : assembler.effects()) effect->recover(x, dx);
-    const auto moved = dx.head(unknowns.coordinates());
-    double longest = std::min(1.0, options.largest_move / moved.cwiseAbs().maxCoeff());
-    for (const auto& effect : assembler.effects())
-      longest = std::min(longest, effect->longest_step(x, dx));
+    const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
 
     // The first trial is nearly always taken, so it is evaluated with its tangent.
     Vector trial, trial_gradient;

@@ -52,6 +52,11 @@ struct NewtonResult {
   int iterations = 0, factorisations = 0;
   std::string reason;  ///< in words, when not converged
   bool ok() const { return status == NewtonStatus::converged; }
+  /// Counts the iterations of a solve that led here as well.
+  void count_on(const NewtonResult& before) {
+    iterations += before.iterations;
+    factorisations += before.factorisations;
+  }
 };
 
 struct NewtonMonitor {
@@ -63,5 +68,8 @@ using NewtonObserver = std::function<void(const NewtonMonitor&)>;
 /// Minimises the energy over the unknowns, from x: evaluate, direction, step, stop.
 NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
                     const NewtonObserver& observer = {});
+
+/// Whether the energy rises in every direction of the unknowns from x.
+bool stable(Assembler& assembler, const Vector& x);
 
 }  // namespace bight

@@ -14,4 +14,12 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient);
 bool newton_direction(System& system, const Vector& gradient, const NewtonOptions& options,
                       NewtonResult& result, Vector& step);
 
+/// A step of the unknowns as a change of all coordinates, and the fraction of it, at most 1, that
+/// keeps within the largest move and lets no strand pass another.
+struct Move {
+  Vector dx;
+  double longest = 1;
+};
+Move move_by(const Assembler& assembler, const Vector& x, const Vector& step, double largest_move);
+
 }  // namespace bight

@@ -52,9 +52,9 @@ struct PathOutcome {
 
 /// How far follow() has come: enough to go on from an accepted step as if it had not stopped.
 struct PathProgress {
-  size_t leg = 0;     ///< waypoint that is walked to; 0: not begun
-  double ebar = 0;    ///< of the newest accepted step
-  double step = 0;    ///< largest next one, in ebar
+  size_t leg = 0;      ///< waypoint that is walked to; 0: not begun
+  double ebar = 0;     ///< of the newest accepted step
+  double step = 0;     ///< largest next one, in ebar
   PathOutcome so_far;  ///< counts of steps, iterations, ...
 };
 

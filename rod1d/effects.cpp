@@ -26,8 +26,7 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const F
   if (rod.straight()) add(std::make_unique<Bend>(rod));
   if (!rod.straight()) add(std::make_unique<NaturalBend>(rod, source));
   if (parameters.twist) add(std::make_unique<Twist>(rod, source));
-  if (parameters.gravity != Vector3::Zero())
-    add(std::make_unique<Gravity>(rod, parameters.gravity));
+  if (parameters.gravity != Vector3::Zero()) add(gravity(rod, parameters.gravity));
   if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
   if (parameters.friction > 0)
     effects.friction = add(std::make_unique<Friction>(rod, *effects.contact, parameters.friction));

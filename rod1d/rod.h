@@ -19,8 +19,8 @@ struct Rod {
   double bending_stiffness = std::numbers::pi / 64;    ///< B [E D^4]
   double twisting_stiffness = 0;                       ///< C = B/(1 + nu) [E D^4]
 
-  double mass_per_length = std::numbers::pi / 4;       ///< rho A [rho D^2]
-  double spin_inertia = std::numbers::pi / 32;         ///< rho J, about the tangent [rho D^4]
+  double mass_per_length = std::numbers::pi / 4;  ///< rho A [rho D^2]
+  double spin_inertia = std::numbers::pi / 32;    ///< rho J, about the tangent [rho D^4]
 
   /// At the nodes, when free: curvature about d1 and d2 of the material frames, and twist, times
   /// the length that the node stands for [rad]. Empty: none.
@@ -35,6 +35,14 @@ struct Rod {
 
   static int position(int node) { return 3 * node; }
   int angle(int segment) const { return 3 * nodes() + segment; }
+
+  /// First coordinates of the blocks of the state, for Unknowns: nodes, then angles.
+  std::vector<int> blocks(bool twist) const {
+    std::vector<int> first;
+    for (int i = 0; i < nodes(); ++i) first.push_back(position(i));
+    for (int i = 0; twist && i < segments(); ++i) first.push_back(angle(i));
+    return first;
+  }
 
   /// Length that node i stands for in the sum over inner nodes [D].
   double voronoi_length(int node) const {

@@ -52,6 +52,8 @@ class RodModel final : public ForceModel {
 
  private:
   struct Equations;
+  /// Steps in ebar below this are no steps.
+  static constexpr double same_ebar = 1e-9;
   struct Accepted {
     double ebar;
     std::vector<double> arc;  ///< undeformed arc length of the nodes [D]
@@ -65,7 +67,8 @@ class RodModel final : public ForceModel {
   std::vector<double> next_arc(double ebar) const;
   Polyline meshed(const Polyline& start);
   void set_arc(const std::vector<double>& arc);
-  void put_before_on(const std::vector<double>& arc);
+  FrictionHistory on_nodes(const std::vector<double>& arc, const Accepted& state,
+                           const Frames& frames) const;
   void keep_twist(const std::vector<double>& arc, const Vector& x, const Frames& frames,
                   const std::vector<double>& wanted, const Frames& frames_wanted,
                   Vector& x_wanted) const;
@@ -84,7 +87,6 @@ class RodModel final : public ForceModel {
   GripForces measured_forces(const NewtonResult& result) const;
   double energy_lost(double ebar, double energy, double tension) const;
   NewtonResult solve_once(const Vector& guess);
-  bool stable(const Vector& x);
   Vector rolled(Vector x, double angle) const;
   Vector let_move(const Vector& x);
   bool weighs() const { return parameters_.gravity != Vector3::Zero(); }

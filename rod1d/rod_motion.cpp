@@ -2,17 +2,6 @@
 
 namespace bight::rod1d {
 
-namespace {
-
-std::vector<int> blocks(const Rod& rod, bool twist) {
-  std::vector<int> first;
-  for (int i = 0; i < rod.nodes(); ++i) first.push_back(Rod::position(i));
-  for (int i = 0; twist && i < rod.segments(); ++i) first.push_back(rod.angle(i));
-  return first;
-}
-
-}  // namespace
-
 RodMotion::RodMotion(const Rod& rod, const EffectList& effects, Frames& source,
                      const std::vector<bool>& held, const MotionParameters& parameters,
                      const Vector& x, const Vector& v)
@@ -20,7 +9,7 @@ RodMotion::RodMotion(const Rod& rod, const EffectList& effects, Frames& source,
       source_(source),
       damping_(parameters.damping),
       mass_(lumped_mass(rod, !source.tangent.empty())),
-      unknowns_(blocks(rod, !source.tangent.empty()), static_cast<int>(held.size()), held),
+      unknowns_(rod.blocks(!source.tangent.empty()), static_cast<int>(held.size()), held),
       assembler_(unknowns_, effects),
       dynamics_({assembler_, mass_, damping_.alpha, parameters.prescribe}, parameters.options, 0, x,
                 v) {}

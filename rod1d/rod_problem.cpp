@@ -68,10 +68,7 @@ void RodProblem::twist_uniformly(double by) {
 }
 
 Unknowns RodProblem::unknowns() const {
-  std::vector<int> blocks;
-  for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
-  for (int i = 0; twist_ && i < rod_.segments(); ++i) blocks.push_back(rod_.angle(i));
-  return Unknowns(blocks, static_cast<int>(x_.size()), held_);
+  return Unknowns(rod_.blocks(twist_), static_cast<int>(x_.size()), held_);
 }
 
 NewtonResult RodProblem::minimise(System& system, const Vector& x, int max_iterations) {
@@ -94,8 +91,7 @@ NewtonResult RodProblem::minimise(System& system, const Vector& x, int max_itera
 void RodProblem::freeze(const Vector& x) {
   source_ = carried_frames(rod_, source_, x);
   effects_.contact->refresh(x);
-  effects_.friction->set_spots(friction_spots(
-      rod_, rubbing_points(rod_, effects_.contact->points(x)), x, source_, history_));
+  effects_.friction->freeze(effects_.contact->points(x), x, source_, history_);
 }
 
 NewtonResult RodProblem::solve(int max_iterations) {
@@ -119,9 +115,9 @@ NewtonResult RodProblem::solve(int max_iterations) {
       result.reason = "friction does not settle";
       return result;
     }
-    const int iterations = result.iterations;
-    result = minimise(system, result.x, max_iterations);
-    result.iterations += iterations;
+    NewtonResult next = minimise(system, result.x, max_iterations);
+    next.count_on(result);
+    result = std::move(next);
   }
   if (!result.ok()) return result;
   x_ = result.x;
@@ -147,12 +143,7 @@ std::unique_ptr<RodMotion> RodProblem::release(const Vector& velocity,
 bool RodProblem::stable() {
   const Unknowns free = unknowns();
   Assembler assembler(free, effects_.list);
-  Vector unused;
-  assembler.refresh(x_);
-  assembler.assemble(x_, Order::hessian, unused);
-  SparseCholesky cholesky;
-  cholesky.analyse(assembler.hessian(), Ordering::dissection);
-  return cholesky.factor(assembler.hessian());
+  return bight::stable(assembler, x_);
 }
 
 Polyline RodProblem::nodes() const { return nodes_of(rod_, x_); }

@@ -82,8 +82,8 @@ struct RodResult {
   std::map<std::string, double> seconds;  ///< wall seconds by phase: tie, path, ...
 };
 
-/// The knot's determinant of a given start. Throws std::invalid_argument, in words, when its strands
-/// run through each other or its segments are too few for its knot. Costs no solve.
+/// The knot's determinant of a given start. Throws std::invalid_argument, in words, when its
+/// strands run through each other or its segments are too few for its knot. Costs no solve.
 int check_start(const RodParameters& parameters);
 
 /// Relaxes the start to equilibrium at the first waypoint, then follows the path.

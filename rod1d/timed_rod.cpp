@@ -17,8 +17,6 @@ namespace {
 constexpr double rise_waves = 10;
 /// No coordinate moves farther than this in a time step, so no strand passes another [D].
 constexpr double largest_move = 0.2;
-/// Share of the allowed overlap aimed at.
-constexpr double aimed_share = 0.6;
 
 }  // namespace
 
@@ -61,9 +59,7 @@ void TimedRod::move_grips(double time, Vector& x, Vector& v) const {
 /// Freezes the spots that rub at the state in which the next time step begins.
 void TimedRod::freeze() {
   effects_.contact->refresh(history_.x);
-  effects_.friction->set_spots(
-      friction_spots(rod_, rubbing_points(rod_, effects_.contact->points(history_.x)), history_.x,
-                     source_, history_));
+  effects_.friction->freeze(effects_.contact->points(history_.x), history_.x, source_, history_);
 }
 
 /// After a time step: contact stiffness and friction for the next one.
@@ -72,7 +68,7 @@ void TimedRod::catch_up() {
   if (!effects_.contact) return;
   effects_.contact->refresh(x);
   const double overlap = effects_.contact->touching(x).second;
-  const double aimed = aimed_share * parameters_.penetration;
+  const double aimed = aimed_overlap * parameters_.penetration;
   ContactLaw law = effects_.contact->law();
   const double softly = std::exp(std::abs(ends_.ebar(motion_->time()) - followed_to_));
   followed_to_ = ends_.ebar(motion_->time());

@@ -68,8 +68,8 @@ struct SolidResult {
 };
 
 /// Relaxes the start (node positions of the swept mesh at start_ebar) to equilibrium, walks to the
-/// first waypoint, then follows the path. `from`: a checkpoint of the same mesh, start and parameters
-/// to go on from instead; the steps of the result are those from there on.
+/// first waypoint, then follows the path. `from`: a checkpoint of the same mesh, start and
+/// parameters to go on from instead; the steps of the result are those from there on.
 SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
                       const SolidParameters& parameters, const SolidObserver& observer = {},
                       const SolidCheckpoint* from = nullptr);

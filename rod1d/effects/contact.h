@@ -55,6 +55,9 @@ struct ContactPoint {
   double stiffness = 0;              ///< -dforce/dgap [E D]
 };
 
+/// Share of the overlap allowed that the stiffness of contact aims at.
+constexpr double aimed_overlap = 0.6;
+
 /// Self-contact of the tube.
 class Contact final : public Effect {
  public:

@@ -20,7 +20,12 @@ class Friction final : public Effect {
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override;
   void couplings(const std::function<void(std::span<const int>)>& couple) const override;
 
-  /// To be changed between solves only.
+  /// Freezes the spots that these contact points of x make, with its frames. To be changed between
+  /// solves only.
+  void freeze(const std::vector<ContactPoint>& points, const Vector& x, const Frames& frames,
+              const FrictionHistory& history) {
+    set_spots(friction_spots(rod_, rubbing_points(rod_, points), x, frames, history));
+  }
   void set_spots(std::vector<FrictionSpot> spots);
   const std::vector<FrictionSpot>& spots() const { return spots_; }
 

@@ -8,6 +8,8 @@ namespace bight::rod1d {
 /// Dead forces on nodes, which keep size and direction: W = -sum of f . x   [E D^3].
 class Load final : public Effect {
  public:
+  explicit Load(std::string_view name = "load") : name_(name) {}
+
   void add(int node, const Vector3& force) {
     const int at = Rod::position(node);
     stencils_.add({at, at + 1, at + 2});
@@ -19,7 +21,7 @@ class Load final : public Effect {
     for (const Vector3& force : forces_) sum += force.norm();
     return sum;
   }
-  std::string_view name() const override { return "load"; }
+  std::string_view name() const override { return name_; }
   int stencils() const override { return stencils_.size(); }
   std::span<const int> coordinates(int i) const override { return stencils_[i]; }
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override {
@@ -30,6 +32,7 @@ class Load final : public Effect {
   }
 
  private:
+  std::string_view name_;
   Stencils<3> stencils_;
   std::vector<Vector3> forces_;
 };

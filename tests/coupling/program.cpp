@@ -7,31 +7,18 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "call.h"
 #include "coupling/read_table.h"
 #include "small_scene.h"
 #include "temporary_folder.h"
 
 namespace {
 
-struct Outcome {
-  int status;
-  std::string said, complained;
-};
-
-Outcome call(const TemporaryFolder& folder, const std::string& words) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words + " > said 2> complained";
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), text_of(folder / "said"), text_of(folder / "complained")};
-}
-
 // A scene that a rod of few segments finishes in a blink.
 std::string quick_scene() {
   return "fidelities = [\"rod\"]\n" + small_scene_with("[30, 20]", "[30, 28]") +
          "[rod1d]\nsegments = 120\n";
 }
-
-size_t lines(const std::string& text) { return std::ranges::count(text, '\n'); }
 
 }  // namespace
 
@@ -143,8 +130,9 @@ TEST_CASE("an interrupted run ends with 130 and leaves whole files") {
 TEST_CASE("a killed run goes on from its checkpoint to the same curve") {
   const TemporaryFolder folder;
   const std::string scene = folder.write(
-      "knot.toml", small_scene_with("[30, 20]", "[20, 19]") +
-                       "[effects]\nfriction = 0.2\n[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\n");
+      "knot.toml",
+      small_scene_with("[30, 20]", "[20, 19]") +
+          "[effects]\nfriction = 0.2\n[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\n");
   REQUIRE(call(folder, "solid knot.toml --out whole --quiet").status == 0);
   const std::string out = folder / "cut";
   const pid_t child = fork();

@@ -8,24 +8,13 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "call.h"
 #include "small_scene.h"
 #include "temporary_folder.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Outcome {
-  int status;
-  std::string said, complained;
-};
-
-Outcome call(const TemporaryFolder& folder, const std::string& words) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words + " > said 2> complained";
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), text_of(folder / "said"), text_of(folder / "complained")};
-}
 
 // A few tenths of a second a run.
 std::string quick_scene(const std::string& grid) {
@@ -35,8 +24,6 @@ std::string quick_scene(const std::string& grid) {
 }
 
 const std::string two_by_two = "rod1d.segments = [60, 120]\npath.max_step = [1, 0.5]\n";
-
-size_t lines(const std::string& text) { return std::ranges::count(text, '\n'); }
 
 nlohmann::json study_json(const TemporaryFolder& folder, const std::string& out) {
   return nlohmann::json::parse(text_of(folder / (out + "/study.json")));

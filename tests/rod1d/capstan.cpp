@@ -104,8 +104,8 @@ void check_capstan(double angle) {
   CHECK(thin == Approx(exact).epsilon(1e-3));
 }
 
-/// Steepest slope, as its tangent, on which a straight strand rests that lies along another one: the
-/// force that draws it along over its weight, while it slides.
+/// Steepest slope, as its tangent, on which a straight strand rests that lies along another one:
+/// the force that draws it along over its weight, while it slides.
 double steepest_slope(double friction) {
   Polyline line;
   for (int i = 0; i <= 24; ++i) line.push_back(Vector3(0.5 * i, 0, 0));

@@ -59,12 +59,7 @@ struct Column {
   bool stable() const {
     const Unknowns unknowns(blocks(), static_cast<int>(x.size()), held);
     Assembler assembler(unknowns, effects);
-    Vector gradient;
-    assembler.refresh(x);
-    assembler.assemble(x, Order::hessian, gradient);
-    SparseCholesky cholesky;
-    cholesky.analyse(assembler.hessian(), Ordering::natural);
-    return cholesky.factor(assembler.hessian());
+    return bight::stable(assembler, x);
   }
 };
 

@@ -56,13 +56,6 @@ struct SymmetricKnot {
   }
 };
 
-std::vector<int> blocks(const Rod& rod) {
-  std::vector<int> first;
-  for (int i = 0; i < rod.nodes(); ++i) first.push_back(3 * i);
-  for (int j = 0; j < rod.segments(); ++j) first.push_back(rod.angle(j));
-  return first;
-}
-
 const auto both = {TwoFold::Kind::half_turn, TwoFold::Kind::inversion};
 
 Vector image_of(TwoFold::Kind kind, const Vector& x) {
@@ -103,7 +96,7 @@ TEST_CASE("half a rod and its image have the energy, gradient and Hessian of the
   std::vector<bool> held(count, false);
   knot.symmetry.hold_middle(held);
   const auto images = knot.symmetry.images(true);
-  const Unknowns unknowns(blocks(knot.rod), count, held, {}, images);
+  const Unknowns unknowns(knot.rod.blocks(true), count, held, {}, images);
   CHECK(unknowns.size() < count / 2 + 4);
   Assembler whole(unknowns, knot.effects.list), half(unknowns, knot.halves);
   Vector whole_gradient, half_gradient;
@@ -123,7 +116,7 @@ TEST_CASE("half a rod and its image have the energy, gradient and Hessian of the
 TEST_CASE("the gradient of a symmetric rod is symmetric: its equilibria are those of the whole") {
   const auto kind = GENERATE(values(both));
   SymmetricKnot knot(kind);
-  const Unknowns unknowns(blocks(knot.rod), static_cast<int>(knot.x.size()),
+  const Unknowns unknowns(knot.rod.blocks(true), static_cast<int>(knot.x.size()),
                           std::vector<bool>(knot.x.size(), false));
   Assembler whole(unknowns, knot.effects.list);
   Vector gradient;

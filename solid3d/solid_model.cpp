@@ -1,0 +1,323 @@
+#include "solid3d/solid_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/knot_type.h"
+#include "solid3d/measure.h"
+#include "solid3d/section_motion.h"
+
+namespace bight::solid3d {
+
+namespace {
+
+/// Tolerances of Newton relative to the end tension.
+constexpr double force_tolerance = 1e-8;
+constexpr double energy_tolerance = 1e-9;
+/// Energy rise that the first iteration may take, relative to T D.
+constexpr double energy_rise = 0.3;
+constexpr double shift_decay = 0.01;  // good guesses need no slow decay
+constexpr int max_iterations = 60;
+/// Contact is stiffened until the overlap is in its bound, at most this often per solve.
+constexpr int max_stiffenings = 6;
+/// Friction has settled when the end tension changes by less than this part of it.
+constexpr double friction_settled = 5e-4;
+constexpr int max_friction_passes = 10;
+constexpr size_t kept_states = 3;  ///< for the predictor
+
+}  // namespace
+
+SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
+                       const SolidParameters& parameters, Clock::time_point began)
+    : mesh_(mesh),
+      parameters_(parameters),
+      symmetry_(parameters.symmetry ? TwoFold::find(mesh, start) : std::nullopt),
+      from_frame_(frame(mesh, start, symmetry_)),
+      grip_(make_grip(mesh, start, parameters, symmetry_.has_value())),
+      internal_begin_(grip_.coordinates(mesh)),
+      effects_(make_effects(mesh, parameters, internal_begin_,
+                            symmetry_ ? symmetry_->first_layer() : 0)),
+      unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()),
+                               symmetry_ ? &*symmetry_ : nullptr)),
+      assembler_(unknowns_, effects_.list),
+      system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
+      tension_(parameters.expected_tension),
+      begin_(began) {
+  if (symmetry_) {
+    whole_effects_ = make_effects(mesh, parameters, internal_begin_);
+    whole_assembler_.emplace(unknowns_, whole_effects_.list);
+  }
+  // Dilatation and pressure begin at zero: from the swept positions they would be K times the
+  // small volume errors of the sweep.
+  Vector x = Vector::Zero(internal_begin_ + 2 * static_cast<int>(mesh.cells.size()));
+  const Eigen::Isometry3d to_frame = from_frame_.inverse();
+  for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = to_frame * start[n];
+  grip_.move(mesh, start_ebar, x);
+  if (symmetry_) symmetry_->impose(mesh, x);
+  history_.push_back({start_ebar, std::move(x)});
+  determinant_ = knot_determinant(centerline(mesh, newest()));
+  system_.advance = [this](Vector& state, const Vector& dx) { advance(state, dx); };
+}
+
+Vector SolidModel::predict(double ebar) const {
+  const Station& last = history_.back();
+  Vector x = last.x;
+  if (ebar != last.ebar)
+    x = history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar);
+  turn_grips(x, last.x);
+  hold_grips(x, last.x);
+  grip_.move(mesh_, ebar, x);
+  if (symmetry_) symmetry_->impose(mesh_, x);
+  return x;
+}
+
+NewtonResult SolidModel::solve(const Vector& guess, double) {
+  NewtonResult result = effects_.friction ? solve_with_friction(guess) : solve_frictionless(guess);
+  if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
+    result.status = NewtonStatus::rejected;
+    result.reason = "a strand has passed through another";
+  }
+  return result;
+}
+
+NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
+  NewtonResult result = newton(system_, guess, options(), observer_);
+  for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
+    if (!stiffen_contact()) break;
+    result = go_on(std::move(result));
+  }
+  return result;
+}
+
+NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
+  NewtonResult result;
+  result.x = newest();
+  double tension = 0;
+  for (int pass = 0; pass < max_friction_passes; ++pass) {
+    effects_.contact->refresh(result.x);
+    frozen_at_ = result.x;
+    effects_.friction->freeze(frozen_at_, newest());
+    if (pass == 0) {
+      result = newton(system_, guess, options(), observer_);
+    } else {
+      stiffen_contact();
+      result = go_on(std::move(result));
+    }
+    if (!result.ok()) return result;
+    const double last = tension;
+    tension = grip_.tension(mesh_, result.x, result.gradient).finish;
+    if (pass > 0 && std::abs(tension - last) < friction_settled * std::abs(tension) &&
+        effects_.contact->max_penetration() <= parameters_.penetration)
+      return result;
+  }
+  result.status = NewtonStatus::too_many_iterations;
+  result.reason = "friction does not settle";
+  return result;
+}
+
+StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
+  const Vector before = newest();
+  // A turn of the path or a state at the same ebar gives no rate to go on with.
+  if (history_.back().ebar == ebar) history_.pop_back();
+  if (history_.size() > 1 &&
+      (ebar - history_.back().ebar) * (history_.back().ebar - history_.front().ebar) < 0)
+    history_.erase(history_.begin(), history_.end() - 1);
+  if (history_.size() == kept_states) history_.erase(history_.begin());
+  history_.push_back({ebar, result.x});
+  gradient_ = result.gradient;
+
+  // Of a symmetric knot, half was solved; the whole is measured, without using the symmetry.
+  StepRow row;
+  Vector gradient = result.gradient;
+  row.energy = result.energy;
+  if (symmetry_) {
+    if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
+    if (effects_.friction) {
+      whole_effects_.contact->refresh(frozen_at_);
+      whole_effects_.friction->freeze(frozen_at_, before);
+    }
+    whole_assembler_->refresh(newest());
+    row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);
+  }
+  const auto tension = grip_.tension(mesh_, newest(), gradient);
+  tension_ = std::max(std::abs(tension.finish), 1e-6);
+  row.ebar = ebar;
+  row.tension = 0.5 * (tension.finish + tension.start);
+  row.residual = largest_inner(gradient) / tension_;
+  row.reaction_mismatch = std::abs(tension.finish - tension.start) / tension_;
+  row.min_jacobian = 1;
+  for (int cell = 0; cell < effects_.strain->cells(); ++cell)
+    row.min_jacobian =
+        std::min(row.min_jacobian, effects_.strain->stress(newest(), cell).least_jacobian);
+  if (effects_.contact) {
+    row.max_penetration = whole().contact->max_penetration();
+    row.contact_pairs = whole().contact->stencils();
+  }
+  if (effects_.friction) {
+    // The potential of a step counts what sliding has cost; energy is what is still there.
+    Friction& friction = *whole().friction;
+    row.energy += friction.stored(newest()) -
+                  (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
+    friction.accept(newest());
+    if (symmetry_) effects_.friction->accept(newest());
+    row.dissipated = friction.dissipated();
+  }
+  row.end_torque = tension.torque;
+  row.end_turn = grip_.turn(mesh_, newest());
+  row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+  return row;
+}
+
+SolidState SolidModel::state(double ebar) {
+  SolidState s = fields(mesh_, whole(), newest());
+  // Seen from the clamped start.
+  const Eigen::Isometry3d seen =
+      from_frame_ * Eigen::AngleAxisd(-grip_.start_turn(mesh_, newest()), Vector3::UnitZ());
+  for (Polyline* points : {&s.nodes, &s.centerline})
+    for (Vector3& p : *points) p = seen * p;
+  s.ebar = ebar;
+  s.tension = tension_;
+  s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
+  if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
+  return s;
+}
+
+SolidCheckpoint SolidModel::saved() const {
+  SolidCheckpoint at;
+  at.history = history_;
+  at.tension = tension_;
+  at.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+  if (effects_.contact) at.contact_stiffness = effects_.contact->law().stiffness;
+  if (effects_.friction) at.friction = effects_.friction->memory();
+  if (symmetry_ && effects_.friction) at.whole_friction = whole_effects_.friction->memory();
+  return at;
+}
+
+void SolidModel::restore(const SolidCheckpoint& at) {
+  history_ = at.history;
+  tension_ = at.tension;
+  if (effects_.contact) effects_.contact->law().stiffness = at.contact_stiffness;
+  if (effects_.friction) effects_.friction->remember(at.friction);
+  if (symmetry_ && effects_.friction) whole_effects_.friction->remember(at.whole_friction);
+}
+
+double SolidModel::largest_inner(const Vector& gradient) const {
+  double largest = 0;
+  for (int n = mesh_.node(1, 0); n < mesh_.node(mesh_.layers() - 1, 0); ++n)
+    for (int c = 3 * n; c < 3 * n + 3; ++c)
+      if (unknowns_.index(c) >= 0 || symmetry_) largest = std::max(largest, std::abs(gradient[c]));
+  return largest;
+}
+
+Eigen::Isometry3d SolidModel::frame(const Mesh& mesh, const std::vector<Vector3>& start,
+                                    const std::optional<TwoFold>& symmetry) {
+  Eigen::Isometry3d from = Eigen::Isometry3d::Identity();
+  if (symmetry) {
+    from.translate(symmetry->origin());
+    from.rotate(Eigen::AngleAxisd(symmetry->angle(), Vector3::UnitZ()));
+  } else {
+    Vector3 halfway = Vector3::Zero();
+    for (int p = 0; p < mesh.points_per_layer(); ++p)
+      halfway += (start[mesh.node(0, p)] + start[mesh.node(mesh.layers() - 1, p)]) /
+                 (2 * mesh.points_per_layer());
+    from.translate(halfway);
+  }
+  return from;
+}
+
+Grip SolidModel::make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
+                           const SolidParameters& parameters, bool symmetric) {
+  constexpr double off_axis = 0.3;  // of a section that can be pinned [D]
+  Grip grip{parameters.finish_turns, false, {}};
+  if (symmetric) {
+    grip.start_turns = parameters.finish_turns;
+    return grip;
+  }
+  const auto centre = [&](int layer) { return start[mesh.node(layer, mesh.section.centre[0])]; };
+  const auto radius = [&](int layer) { return Vector2((centre(layer) - centre(0)).head<2>()); };
+  int layer = mesh.layers() / 2;
+  if (radius(layer).norm() < off_axis)
+    for (int k = 0; k < mesh.layers(); ++k)
+      if (radius(k).norm() > radius(layer).norm()) layer = k;
+  if (radius(layer).norm() < off_axis || parameters.friction > 0) return grip;
+  const int at = 3 * mesh.node(layer, mesh.section.centre[0]);
+  grip.pinned = {at + 2};
+  if (!parameters.finish_turns) return grip;
+  const Vector2 r = radius(layer).cwiseAbs();
+  grip.pinned.push_back(at + (r.x() > r.y() ? 1 : 0));
+
+  int outermost = mesh.section.rim[0];
+  for (int p : mesh.section.rim)
+    if (mesh.section.points[p].x() > mesh.section.points[outermost].x() + 1e-9) outermost = p;
+  const int point = mesh.node(layer, outermost);
+  const Vector3 tangent = centre(layer + 1) - centre(layer - 1);
+  const Vector3 sideways = tangent.cross(start[point] - centre(layer)).cwiseAbs();
+  int axis = 0;
+  sideways.maxCoeff(&axis);
+  grip.pinned.push_back(3 * point + axis);
+  grip.start_turns = true;
+  return grip;
+}
+
+NewtonOptions SolidModel::options() const {
+  NewtonOptions options;
+  options.max_iterations = max_iterations;
+  options.force_tolerance = force_tolerance * tension_;
+  options.energy_tolerance = energy_tolerance * tension_;
+  options.largest_move = parameters_.largest_move;
+  options.shift_decay = shift_decay;
+  options.bound.first_rise = energy_rise * tension_;
+  return options;
+}
+
+bool SolidModel::stiffen_contact() {
+  const double overlap = effects_.contact->max_penetration();
+  if (overlap <= parameters_.penetration) return false;
+  effects_.contact->law().stiffness *=
+      std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+  return true;
+}
+
+NewtonResult SolidModel::go_on(NewtonResult solved) {
+  NewtonResult result = newton(system_, std::move(solved.x), options(), observer_);
+  result.count_on(solved);
+  return result;
+}
+
+void SolidModel::advance(Vector& x, const Vector& dx) const {
+  const Vector before = x;
+  advance_sections(mesh_, x, dx);
+  turn_grips(x, before);
+  hold_grips(x, before);
+  if (symmetry_) symmetry_->impose(mesh_, x);
+}
+
+void SolidModel::turn_grips(Vector& x, const Vector& from) const {
+  Vector turned = from;
+  unknowns_.advance(turned, x - from);
+  for (const Turn& turn : unknowns_.turns())
+    for (int first : turn.carried) x.segment<3>(first) = turned.segment<3>(first);
+}
+
+void SolidModel::hold_grips(Vector& x, const Vector& as) const {
+  for (int c = 0; c < unknowns_.coordinates(); ++c)
+    if (unknowns_.index(c) < 0 && unknowns_.turn_of(c) < 0) x[c] = as[c];
+}
+
+Vector SolidModel::follow_grip(double ebar) const {
+  const Station& last = history_.back();
+  constexpr double probe = 1e-6;  // [D]
+  const double de = ebar - last.ebar;
+  Vector moved = last.x, gradient;
+  const double towards = de > 0 ? probe : -probe;
+  grip_.move(mesh_, last.ebar + towards, moved);
+  assembler_.assemble(moved, Order::gradient, gradient);
+  const Vector rate =
+      (unknowns_.reduce(moved, gradient) - unknowns_.reduce(last.x, gradient_)) / towards;
+  const Vector step = -de * cholesky_.solve(rate);
+  Vector x = last.x;
+  advance(x, unknowns_.expand(x, step));
+  return x;
+}
+
+}  // namespace bight::solid3d

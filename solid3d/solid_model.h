@@ -1,0 +1,115 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/newton.h"
+#include "mechanics/path.h"
+#include "solid3d/checkpoint.h"
+#include "solid3d/effects.h"
+#include "solid3d/effects/grip.h"
+#include "solid3d/run_solid.h"
+#include "solid3d/two_fold.h"
+
+namespace bight::solid3d {
+
+/// The solid as follow() sees it: its accepted states, how the next is guessed, solved and
+/// measured.
+class SolidModel final : public PathModel {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, double start_ebar,
+             const SolidParameters& parameters, Clock::time_point began);
+
+  Vector predict(double ebar) const override;
+  NewtonResult solve(const Vector& guess, double ebar) override;
+  StepRow accept(const NewtonResult& result, double ebar) override;
+
+  SolidState state(double ebar);
+
+  /// The first state has no rate to go on with, but a tangent that is not saved.
+  bool can_be_saved() const { return history_.size() > 1; }
+
+  SolidCheckpoint saved() const;
+  void restore(const SolidCheckpoint& at);
+
+  int unknowns() const { return unknowns_.size(); }
+  bool symmetric() const { return symmetry_.has_value(); }
+  const EffectList& effects() const { return effects_.list; }
+  const std::map<std::string, double>& seconds() const { return system_.seconds; }
+  void observe(NewtonObserver observer) { observer_ = std::move(observer); }
+
+ private:
+  NewtonResult solve_frictionless(const Vector& guess);
+  /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
+  /// end tension stays. The start is relaxed with friction, too: the shape of a rod with friction
+  /// is held by it.
+  NewtonResult solve_with_friction(const Vector& guess);
+
+  const Vector& newest() const { return history_.back().x; }
+  const SolidEffects& whole() const { return symmetry_ ? whole_effects_ : effects_; }
+
+  /// Largest out-of-balance force on a node between the grips [E D^2].
+  double largest_inner(const Vector& gradient) const;
+
+  /// The model works in a frame with the pulling axis along z and z = 0 halfway between the ends; a
+  /// symmetry axis lies along x.
+  static Eigen::Isometry3d frame(const Mesh& mesh, const std::vector<Vector3>& start,
+                                 const std::optional<TwoFold>& symmetry);
+
+  /// Without friction the knot may slide along the rod and, where the finish turns, revolve about
+  /// the pulling axis while the rod rolls about its own, at no cost but what the mesh is uneven by.
+  /// A symmetry excludes all three. Without one, each is stopped at the middle section: its centre
+  /// along z and across its radius, and a point of its x axis sideways. A choice of place and
+  /// angles among equals; what the pin along z carries is seen as a difference of the end tensions.
+  static Grip make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
+                        const SolidParameters& parameters, bool symmetric);
+
+  NewtonOptions options() const;
+
+  /// Where strands overlap more than they may; false where they do not.
+  bool stiffen_contact();
+
+  /// Solves on from a solution after something has changed; counts on, too.
+  NewtonResult go_on(NewtonResult solved);
+
+  /// Sections move rigidly through the exponential map, turned ends about their axis.
+  void advance(Vector& x, const Vector& dx) const;
+
+  /// Turned ends as their angles say.
+  void turn_grips(Vector& x, const Vector& from) const;
+
+  /// Held coordinates exactly as they were.
+  void hold_grips(Vector& x, const Vector& as) const;
+
+  /// Tangent predictor: the linear answer of the last tangent to the motion of the ends.
+  Vector follow_grip(double ebar) const;
+
+  const Mesh& mesh_;
+  const SolidParameters& parameters_;
+  std::optional<TwoFold> symmetry_;  ///< then one half is simulated
+  Eigen::Isometry3d from_frame_;     ///< of the model, to where the start was given
+  Grip grip_;
+  int internal_begin_;
+  SolidEffects effects_;
+  Unknowns unknowns_;
+  mutable Assembler assembler_;
+  SparseCholesky cholesky_;
+  System system_;
+  double tension_;
+  int determinant_ = 0;
+  SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
+  std::optional<Assembler> whole_assembler_;
+  Vector frozen_at_;              ///< where friction's spots were taken from
+  std::vector<Station> history_;  ///< the last accepted states, newest last
+  Vector gradient_;               ///< by coordinates, at the newest
+  NewtonObserver observer_;
+  Clock::time_point begin_;
+};
+
+}  // namespace bight::solid3d
