@@ -86,6 +86,7 @@ SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x
   state.contact_pressure.assign(state.nodes.size(), 0.0);
   state.gap.assign(state.nodes.size(), nothing_near);
   if (!effects.contact) return state;
+  effects.contact->project_all(x);
   const ContactSurface& surface = effects.contact->surface();
   std::vector<int> samples(state.nodes.size(), 0);
   for (const auto& sample : effects.contact->samples()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
 #include "solid3d/measure.h"
 #include "solid3d/section_motion.h"
@@ -23,6 +24,10 @@ constexpr int max_stiffenings = 6;
 /// Friction has settled when the end tension changes by less than this part of it.
 constexpr double friction_settled = 5e-4;
 constexpr int max_friction_passes = 10;
+/// Iterations with the last state's friction, which bring contact forces into range, and those with
+/// the whole tangent, at most; and their tolerances relative to the end tension.
+constexpr int few_first = 3, most_coupled = 25;
+constexpr double first_tolerance = 1e-2, coupled_tolerance = 1e-5;
 constexpr size_t kept_states = 3;  ///< for the predictor
 
 }  // namespace
@@ -61,18 +66,36 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
 
 Vector SolidModel::predict(double ebar) const {
   const Station& last = history_.back();
-  Vector x = last.x;
-  if (ebar != last.ebar)
-    x = history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar);
-  turn_grips(x, last.x);
-  hold_grips(x, last.x);
+  if (ebar == last.ebar) return held(last.x, ebar);
+  return held(history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar),
+              ebar);
+}
+
+/// The ends of a guess where they are to be.
+Vector SolidModel::held(Vector x, double ebar) const {
+  turn_grips(x, newest());
+  hold_grips(x, newest());
   grip_.move(mesh_, ebar, x);
   if (symmetry_) symmetry_->impose(mesh_, x);
   return x;
 }
 
-NewtonResult SolidModel::solve(const Vector& guess, double) {
-  NewtonResult result = effects_.friction ? solve_with_friction(guess) : solve_frictionless(guess);
+/// The guess of least energy: where the path is not smooth (strands slip over a coarse mesh) the
+/// last two states foretell more than the last three.
+Vector SolidModel::best_guess(const Vector& guess, double ebar) {
+  if (history_.size() < 3 || ebar == history_.back().ebar) return guess;
+  const auto energy = [&](const Vector& x) {
+    assembler_.refresh(x);
+    return assembler_.energy(x);
+  };
+  const std::vector<Station> two(history_.end() - 2, history_.end());
+  Vector straight = held(extrapolate_sections(mesh_, two, ebar), ebar);
+  return energy(straight) < energy(guess) ? straight : guess;
+}
+
+NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
+  NewtonResult result =
+      effects_.friction ? solve_with_friction(guess) : solve_frictionless(best_guess(guess, ebar));
   if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
     result.status = NewtonStatus::rejected;
     result.reason = "a strand has passed through another";
@@ -89,14 +112,55 @@ NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
   return result;
 }
 
+void SolidModel::freeze(const Vector& x) {
+  effects_.contact->refresh(x);
+  frozen_at_ = x;
+  effects_.friction->freeze(x, newest());
+}
+
+/// Newton steps with the whole tangent, after a few with the last state's friction: the contact
+/// forces of a guess are too rough to begin with.
+NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
+  struct Following final : FollowingForces {
+    explicit Following(SolidModel& model) : model(model) {}
+    void freeze(const Vector& x) override { model.freeze(x); }
+    void add_change(const Vector& dx, Vector& gradient) const override {
+      model.effects_.friction->add_change(model.frozen_at_, dx, gradient);
+    }
+    SolidModel& model;
+  } following(*this);
+  NewtonOptions rough = options(), whole = options();
+  rough.max_iterations = few_first;
+  rough.energy_tolerance = rough.force_tolerance = first_tolerance * tension_;
+  whole.max_iterations = most_coupled;
+  whole.force_tolerance = whole.energy_tolerance = coupled_tolerance * tension_;
+  freeze(newest());
+  const NewtonResult begun = newton(system_, guess, rough, observer_);
+  NewtonResult result = coupled_newton(system_, following, begun.x, whole);
+  result.count_on(begun);
+  for (int i = 0; result.ok() && i < max_stiffenings && stiffen_contact(); ++i) {
+    const NewtonResult before = std::move(result);
+    result = coupled_newton(system_, following, before.x, whole);
+    result.count_on(before);
+  }
+  return result;
+}
+
 NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
+  NewtonResult result = solve_rubbing(guess);
+  if (result.ok()) return result;
+  const NewtonResult tried = std::move(result);
+  result = solve_with_friction_frozen(guess);
+  result.count_on(tried);
+  return result;
+}
+
+NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
   NewtonResult result;
   result.x = newest();
   double tension = 0;
   for (int pass = 0; pass < max_friction_passes; ++pass) {
-    effects_.contact->refresh(result.x);
-    frozen_at_ = result.x;
-    effects_.friction->freeze(frozen_at_, newest());
+    freeze(result.x);
     if (pass == 0) {
       result = newton(system_, guess, options(), observer_);
     } else {

@@ -49,7 +49,12 @@ class SolidModel final : public PathModel {
   /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
   /// end tension stays. The start is relaxed with friction, too: the shape of a rod with friction
   /// is held by it.
+  NewtonResult solve_with_friction_frozen(const Vector& guess);
+  NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_with_friction(const Vector& guess);
+  void freeze(const Vector& x);
+  Vector held(Vector x, double ebar) const;
+  Vector best_guess(const Vector& guess, double ebar);
 
   const Vector& newest() const { return history_.back().x; }
   const SolidEffects& whole() const { return symmetry_ ? whole_effects_ : effects_; }

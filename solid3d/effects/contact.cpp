@@ -104,6 +104,7 @@ void Contact::project(const Vector& x, Sample& sample) const {
   const SurfacePoint here = surface_.evaluate(x, w);
   const auto uv = surface_.project(x, here.y, sample.facing);
   sample.faces = false;
+  sample.seen_at = way_;
   if (!uv) return;
   const SurfacePoint there = surface_.evaluate(x, surface_.weights(uv->x(), uv->y()));
   const double apart = std::abs(surface_.arc_length(w.along) -
@@ -115,21 +116,39 @@ void Contact::project(const Vector& x, Sample& sample) const {
   sample.faces = sample.gap > -0.25;
 }
 
+double Contact::farthest_move(const Vector& from, const Vector& to) const {
+  double square = 0;
+  for (int patch = 0; patch < surface_.patches(); ++patch) {
+    const int c = surface_.coordinate(surface_.around(patch), surface_.along(patch));
+    square = std::max(square, (to.segment<3>(c) - from.segment<3>(c)).squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+/// What the gap of a sample can have become since it was projected.
+double Contact::least_gap(const Sample& sample) const {
+  return sample.gap - 2 * (way_ - sample.seen_at);
+}
+
+void Contact::project_all(const Vector& x) {
+  const int count = static_cast<int>(samples_.size());
+#pragma omp parallel for schedule(dynamic, 64)
+  for (int i = 0; i < count; ++i) project(x, samples_[i]);
+}
+
 void Contact::refresh(const Vector& x) {
-  const Eigen::Index n = x.size();
-  if (searched_at_.size() != n || [&] {
-        double moved = 0;
-        for (int patch = 0; patch < surface_.patches(); ++patch) {
-          const int c = surface_.coordinate(surface_.around(patch), surface_.along(patch));
-          moved = std::max(moved, (x.segment<3>(c) - searched_at_.segment<3>(c)).squaredNorm());
-        }
-        return moved > search_slack * search_slack;
-      }())
+  const bool known = last_.size() == x.size();
+  if (known && last_ == x) return;
+  if (known) way_ += farthest_move(last_, x);
+  last_ = x;
+  if (searched_at_.size() != x.size() || farthest_move(searched_at_, x) > search_slack)
     find_samples(x);
 
   const int count = static_cast<int>(samples_.size());
 #pragma omp parallel for schedule(dynamic, 64)
-  for (int i = 0; i < count; ++i) project(x, samples_[i]);
+  for (int i = 0; i < count; ++i)
+    if (!samples_[i].faces || least_gap(samples_[i]) < 0.5 * law_.onset + pattern_margin)
+      project(x, samples_[i]);
 
   touching_.clear();
   coordinates_.clear();
@@ -237,7 +256,7 @@ double Contact::longest_step(const Vector& x, const Vector& dx) const {
                    dx.segment<3>(surface_.coordinate(facing.around + i - 1, facing.along + j - 1));
       }
     const double rate = normal.dot(closing);
-    const double room = std::max(sample.gap, 0.0) + deepest_overlap;
+    const double room = std::max(least_gap(sample), 0.0) + deepest_overlap;
     if (rate < 0 && -rate * longest > room) longest = room / -rate;
   }
   return longest;

@@ -40,6 +40,9 @@ class Contact : public Effect {
 
   ContactLaw& law() { return law_; }
   const ContactLaw& law() const { return law_; }
+  /// Projects every sample. refresh() leaves out those that were so far apart that they cannot
+  /// touch by now: their gaps are old.
+  void project_all(const Vector& x);
   /// Largest overlap now [D].
   double max_penetration() const;
 
@@ -53,6 +56,7 @@ class Contact : public Effect {
     Vector2 facing;      ///< its projection (u, v) on the facing strand
     double gap = 0;      ///< [D]; meaningful when it faces something
     bool faces = false;  ///< a projection exists and the normals oppose each other
+    double seen_at = 0;  ///< the surface's way so far when it was projected last [D]
   };
   const std::vector<Sample>& samples() const { return samples_; }
 
@@ -63,6 +67,8 @@ class Contact : public Effect {
  private:
   void find_samples(const Vector& x);
   void project(const Vector& x, Sample& sample) const;
+  double least_gap(const Sample& sample) const;
+  double farthest_move(const Vector& from, const Vector& to) const;
   Vector3 position(const Vector& x, const Sample& sample) const;
 
   ContactSurface surface_;
@@ -72,6 +78,8 @@ class Contact : public Effect {
   std::vector<int> touching_;                     ///< samples that carry load, by stencil
   std::vector<std::array<int, 54>> coordinates_;  ///< by stencil: 9 nodes of the sample, 9 facing
   Vector searched_at_;                            ///< state of the last pair search
+  Vector last_;                                   ///< state of the last refresh
+  double way_ = 0;  ///< that the surface has gone at most, summed over refreshes [D]
 };
 
 }  // namespace bight::solid3d

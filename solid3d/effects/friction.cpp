@@ -29,6 +29,8 @@ void Friction::freeze(const Vector& x, const Vector& start) {
     spot.limit = -coefficient_ * sample.weight * contact_.law().slope(sample.gap);
     spot.own = contact_.own_weights(sample);
     spot.facing = contact_.surface().weights(sample.facing.x(), sample.facing.y());
+    spot.normal = contact_.surface().evaluate(x, spot.facing).normal;
+    spot.limit_by_gap = contact_.law().curvature(sample.gap) / contact_.law().slope(sample.gap);
     spot.coordinates = contact_.stencil(sample);
     spot.tangents = tangents(x, spot.own);
     const auto found = memory_.elastic_slip.find(sample.id);
@@ -55,6 +57,21 @@ void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) c
   if (order == Order::gradient) return;
   const Eigen::Matrix<double, 54, 2> dsc = ds * at.hessian;
   Eigen::Matrix<double, 54, 54>::Map(slot.hessian).noalias() = dsc * ds.transpose();
+}
+
+void Friction::add_change(const Vector& x, const Vector& dx, Vector& gradient) const {
+  for (const Spot& spot : spots_) {
+    const Vector3 parting = apart(dx, spot);
+    const Vector3 change = spot.limit_by_gap * spot.normal.dot(parting) *
+                           (spot.tangents * friction_element(slip(x, spot), law(spot)).gradient);
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) {
+        const int a = 3 * j + k;
+        gradient.segment<3>(spot.coordinates[3 * a]) += spot.own.u[k] * spot.own.v[j] * change;
+        gradient.segment<3>(spot.coordinates[27 + 3 * a]) -=
+            spot.facing.u[k] * spot.facing.v[j] * change;
+      }
+  }
 }
 
 void Friction::accept(const Vector& x) {

@@ -22,8 +22,9 @@ struct FrictionMemory {
 ///
 /// m its elastic slip at the start and E two unit tangents that the surface carries along. Its
 /// energy is that of the friction law at |s|. Which points face each other, their normal force and
-/// E(now) are frozen during a solve and taken anew from its solution, until the end tension stays:
-/// the tangent is symmetric, and positive (Alart and Curnier 1991 iterate the same way).
+/// E(now) are frozen: the tangent of the spots is symmetric, and positive. They are taken anew at
+/// every iteration, with add_change() for the tangent's other part, or, from a poor guess, from the
+/// solution of a solve until the end tension stays (Alart and Curnier 1991 iterate that way).
 class Friction final : public Effect {
  public:
   Friction(const Contact& contact, double coefficient)
@@ -39,6 +40,9 @@ class Friction final : public Effect {
   /// Freezes what the contact samples say of x, to which contact has been refreshed last; slips
   /// count from `start`, the newest accepted state. To be called between solves.
   void freeze(const Vector& x, const Vector& start);
+  /// Adds the change of the gradient with dx that comes of limits that follow the normal forces
+  /// (the spots' places and tangents kept): where frozen, t dx changes as t (dN/N).
+  void add_change(const Vector& x, const Vector& dx, Vector& gradient) const;
   /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
   void accept(const Vector& x);
 
@@ -53,6 +57,8 @@ class Friction final : public Effect {
   struct Spot {
     int sample;  ///< its id
     double limit;
+    Vector3 normal;       ///< of the facing surface
+    double limit_by_gap;  ///< dlimit/dgap over limit [1/D]
     PatchWeights own, facing;
     std::array<int, 54> coordinates;
     Eigen::Matrix<double, 3, 2> tangents;

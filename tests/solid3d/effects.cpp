@@ -88,6 +88,25 @@ TEST_CASE("contact is sampled on the whole surface of both strands, half each") 
   CHECK(patches > 20);
 }
 
+TEST_CASE("samples that were left out as too far touch as soon as any") {
+  Wound rod;
+  bool touched = false;
+  for (double closed = 0; closed < 0.09; closed += 0.01) {
+    // Both strands go half the way, so that no new search is due.
+    Vector x = rod.state(1.06);
+    for (int n = 0; n < rod.mesh.nodes(); ++n)
+      x[3 * n + 2] += (rod.mesh.reference(n).z() < 0.5 * rod.mesh.s.back() ? 0.5 : -0.5) * closed;
+    rod.effects.contact->refresh(x);
+    Wound fresh;
+    fresh.effects.contact->refresh(x);
+    CHECK(rod.effects.contact->stencils() == fresh.effects.contact->stencils());
+    CHECK(rod.effects.contact->max_penetration() ==
+          Approx(fresh.effects.contact->max_penetration()).margin(1e-9));
+    touched = touched || fresh.effects.contact->stencils() > 0;
+  }
+  CHECK(touched);
+}
+
 TEST_CASE("the far side of a strand is no overlap") {
   const Mesh mesh = test::straight_mesh(12, 6.0, 1.0);
   SolidEffects effects = make_effects(mesh, {}, 3 * mesh.nodes());
