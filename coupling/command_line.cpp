@@ -81,7 +81,17 @@ std::optional<Command> read_command_line(int argc, char** argv) {
       ->required();
   compare->add_option("--out", command.out, "Folder for compare.csv; default: print only")
       ->type_name("DIR");
-  app.add_subcommand("report")->group("")->allow_extras()->set_help_flag();
+  CLI::App* report = add_verb(app, "report", "One self-contained HTML page for a result");
+  report->add_option("DIR", command.results, "Results folder of a run or a study")->required();
+  report->add_option("--out", command.out, "The page; default DIR/report.html")->type_name("FILE");
+  report
+      ->add_option("--measured", command.measured,
+                   "CSV file with columns ebar, force_normalised to be laid over (repeatable)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  report
+      ->add_option("--script", command.script, "The page's program; default: as ./bight builds it")
+      ->type_name("FILE");
 
   try {
     app.parse(argc, argv);

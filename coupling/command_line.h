@@ -11,11 +11,14 @@ namespace bight::coupling {
 struct Command {
   std::string verb;
   std::filesystem::path scene;
-  std::vector<std::filesystem::path> sources;  ///< of `compare`
-  std::filesystem::path out;                   ///< empty: not given
-  std::vector<std::string> settings;           ///< "key=value"
-  std::vector<std::string> grid;               ///< "key=value,value" of `study`
-  std::filesystem::path jobs, slurm;           ///< of `study`: written instead of running
+  std::vector<std::filesystem::path> sources;   ///< of `compare`
+  std::filesystem::path results;                ///< of `report`
+  std::vector<std::filesystem::path> measured;  ///< of `report`, laid over the force curves
+  std::filesystem::path script;                 ///< of `report`; empty: not given
+  std::filesystem::path out;                    ///< empty: not given
+  std::vector<std::string> settings;            ///< "key=value"
+  std::vector<std::string> grid;                ///< "key=value,value" of `study`
+  std::filesystem::path jobs, slurm;            ///< of `study`: written instead of running
   int threads = 1;
   bool resume = false, force = false, quiet = false;
 };

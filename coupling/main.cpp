@@ -11,6 +11,7 @@
 #include "coupling/interrupt.h"
 #include "coupling/keys.h"
 #include "coupling/read_curves.h"
+#include "coupling/report.h"
 #include "coupling/run.h"
 #include "coupling/study.h"
 
@@ -54,13 +55,14 @@ ExitStatus study_scene(const Command& command) {
 }
 
 ExitStatus obey(const Command& command) {
-  if (command.verb == "report") throw InputError("bight " + command.verb + " is not available yet");
   if (command.verb == "keys") return fmt::print("{}", keys_table()), done;
   if (command.verb == "compare") return compare_sources(command);
   if (command.verb == "check")
     return fmt::print("{}", expectations(read_scene(command.scene, command.settings))), done;
 
   if (command.verb == "study") return study_scene(command);
+  if (command.verb == "report")
+    return report(command.results, {command.out, command.measured, command.script}), done;
 
   const std::vector<std::string> only =
       command.verb == "run" ? std::vector<std::string>{} : std::vector{command.verb};

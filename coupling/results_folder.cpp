@@ -29,13 +29,14 @@ bool finished(const fs::path& folder) {
 bool nothing_of_a_run(const fs::path& folder) {
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename();
-    return name == "runs" || name == "study.csv" || name == "study.json";
+    return name == "runs" || name == "study.csv" || name == "study.json" || name == "report.html";
   });
 }
 
 // Only what a run writes; a user's own notes stay.
 void clear(const fs::path& folder) {
-  for (const char* name : {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "run.log"})
+  for (const char* name :
+       {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "report.html", "run.log"})
     fs::remove(folder / name);
   remove_checkpoints(folder);
   for (const char* fidelity : {"rod", "solid"}) {
