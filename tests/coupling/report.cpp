@@ -2,13 +2,11 @@
 // browser by tests/report/page.mjs.
 #include "coupling/report.h"
 
-#include <sys/wait.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "call.h"
 #include "coupling/errors.h"
 #include "coupling/evenly.h"
 #include "coupling/pack.h"
@@ -83,18 +81,6 @@ void write_result(const TemporaryFolder& folder) {
   state.contact_pressure.back() = 0.01;
   state.jacobian.assign(mesh.cells.size(), 0.9);
   write_solid_vtu(folder / "solid/vtu/ebar_+019.000.vtu", mesh, state, scales);
-}
-
-struct Outcome {
-  int status;
-  std::string said, complained;
-};
-
-Outcome call(const TemporaryFolder& folder, const std::string& words) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && " BIGHT_PROGRAM " " + words + " > said 2> complained";
-  const int status = std::system(command.c_str());
-  return {WEXITSTATUS(status), text_of(folder / "said"), text_of(folder / "complained")};
 }
 
 Json data_of(const std::string& html) {
@@ -348,7 +334,7 @@ TEST_CASE("a report that cannot be made says why and writes nothing") {
   CAPTURE(trial.words, trial.file, outcome.complained);
   CHECK(outcome.status == trial.status);
   CHECK(outcome.complained.find(trial.what) != std::string::npos);
-  CHECK(std::ranges::count(outcome.complained, '\n') == 1);
+  CHECK(lines(outcome.complained) == 1);
   CHECK(outcome.said.empty());
   CHECK_FALSE(fs::exists(folder / "report.html"));
 }

@@ -148,6 +148,14 @@ await page.waitForSelector('[data-chart="penetration"] svg');
 const outcome = await page.locator("dl.facts").textContent();
 check("an unfinished run says so", outcome.includes("not finished"));
 check("and is drawn", (await canvas.getAttribute("data-triangles")) > 0);
+check("nothing went wrong", troubles.length === 0, troubles);
+
+await another("odd");
+await page.waitForSelector('[data-chart="penetration"] svg');
+const text = await page.locator("main").textContent();
+check("a part that fails says so, alone", text.split("A part of this page failed").length === 2);
+check("and to the console", troubles.length === 1, troubles);
+troubles.length = 0;
 await another("study");
 await page.waitForSelector('[data-chart="pareto"] svg');
 const runs = await page.locator('[data-chart="pareto"] g.runs path').count();
@@ -159,7 +167,7 @@ check("nothing went wrong", troubles.length === 0, troubles);
 check(
   "nothing was loaded",
   requests.every((url) => /^(file|data|blob):/.test(url)) &&
-    requests.filter((url) => url.startsWith("file:")).length === 3,
+    requests.filter((url) => url.startsWith("file:")).length === 4,
   requests.map((url) => url.slice(0, 60)),
 );
 await browser.close();

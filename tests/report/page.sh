@@ -34,6 +34,8 @@ printf 'ebar,force_normalised\n28,0.01\n24,0.016\n21,0.022\n' >"$folder/measured
 "$bight" report "$folder/run" --script "$script" --measured "$folder/measured.csv"
 cp -r "$folder/run" "$folder/unfinished"
 rm "$folder/unfinished/summary.json"
+cp -r "$folder/run" "$folder/odd"  # as if another version had written it
+sed -i 's/"energy_J": {/"energy_J": null, "was": {/' "$folder/odd/summary.json"
 mkdir "$folder/study"
 cat >"$folder/study/study.csv" <<'CSV'
 run,rod1d.segments,fidelity,status,reference,on_front,states,error_force_largest,wall_s,cpu_s,unknowns,newton_iterations,reason
@@ -42,5 +44,5 @@ rod1d.segments=120,120,rod,finished,0,1,2,0.004,0.5,0.4,200,60,
 rod1d.segments=240,240,rod,finished,1,0,2,0,1.5,1.1,400,70,
 rod1d.segments=9,9,rod,gave up,0,0,0,,0.1,0.1,20,5,"too few, by far"
 CSV
-for of in unfinished study; do "$bight" report "$folder/$of" --script "$script"; done
+for of in unfinished odd study; do "$bight" report "$folder/$of" --script "$script"; done
 node "$(dirname "$0")/page.mjs" "$folder" "$(dirname "$script")" "$(command -v chromium)"
