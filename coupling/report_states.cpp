@@ -120,6 +120,8 @@ Json report_states(const fs::path& folder, double diameter, size_t most, size_t 
     Json& json = states.emplace_back(Json{{"name", state.name}, {"ebar", state.ebar}});
     const fs::path centerline = fs::path("centerline") / (state.name + ".csv");
     if (state.in_rod) json["rod"] = packed_columns(folder / "rod" / centerline);
+    const fs::path contacts = folder / "rod" / "contacts" / (state.name + ".csv");
+    if (state.in_rod && fs::exists(contacts)) json["contacts"] = packed_columns(contacts);
     if (state.in_solid) json["solid"] = packed_columns(folder / "solid" / centerline);
     if (state.in_solid)
       json["surface"] = surfaces.read(folder / "solid" / "vtu" / (state.name + ".vtu"));

@@ -41,6 +41,10 @@ export function worst(result) {
               .map((row) => short(row.ebar)),
           ) || "none",
       ),
+      line("knot determinant of the recorded states", (f) => {
+        const seen = (of(f).states ?? []).map((state) => state.determinant);
+        return commas([...new Set(seen)]) || "–";
+      }),
       line("wall time", (f) => seconds(rows(f).at(-1).wall_s)),
     ],
   );

@@ -1,7 +1,7 @@
 import { h, section, table } from "./dom.js";
 import * as overview from "./overview.js";
 import { readResult } from "./result.js";
-import { curvatures, energies, forces, health, profiles, shapes } from "./sections.js";
+import { contacts, curvatures, energies, forces, health, profiles, shapes } from "./sections.js";
 import { study } from "./study.js";
 import css from "./style.css";
 
@@ -30,7 +30,7 @@ const tension = (result) =>
 
 const accuracy = (result) => result.study && study(result);
 
-const drawn = [shapes, forces, curvatures, profiles, energies, health].map(
+const drawn = [shapes, forces, curvatures, contacts, profiles, energies, health].map(
   (part) => (result) => ran(result) && part(result),
 );
 
@@ -41,6 +41,7 @@ const filesOf = {
   rod: [
     ["rod/force.csv", "tension, energies, penetration, iterations, residuals: a row a step"],
     ["rod/rod.pvd, rod/centerline/*.csv", "the rod's shape, curvature, contact force, twist"],
+    ["rod/contacts/*.csv", "where the rod touches itself"],
   ],
   solid: [
     ["solid/force.csv", "the same of the solid, smallest J"],

@@ -102,6 +102,7 @@ export function readResult(data) {
         Object.fromEntries(fidelities.filter((f) => state[f]).map((f) => [f, state[f]])),
         lineOf,
       ),
+      contacts: state.contacts && mapped(state.contacts, numbers),
       surface: state.surface && mapped(state.surface, numbers),
       row: Object.fromEntries(fidelities.map((fidelity) => [fidelity, at(fidelity)])),
       curvature: data.curvature?.find((of) => of.name === state.name)?.mean_difference,

@@ -49,6 +49,53 @@ export function curvature(result, state, limits) {
     });
 }
 
+/** Where the rod touches itself at one state: a pair of places each, the larger the more force. */
+export function contacts(state, limits) {
+  const { s_a, s_b, force_normalised } = state.contacts;
+  const { middle } = state.lines.rod;
+  const pairs = Array.from(s_a, (a, i) => ({
+    a: a - middle,
+    b: s_b[i] - middle,
+    force: force_normalised[i],
+  }));
+  const axis = (label) => ({ label, domain: [-limits.reach, limits.reach], ticks: 5 });
+  return (width) =>
+    Plot.plot({
+      ...frame,
+      width,
+      height: width,
+      marginLeft: 36,
+      marginRight: 12,
+      marginTop: 22,
+      marginBottom: 34,
+      grid: true,
+      x: { ...axis("(s − s₀)/D of one strand"), labelAnchor: "center", labelArrow: "none" },
+      y: axis("of the other"),
+      r: { domain: [0, limits.force], range: [0.6, 7] },
+      marks: [
+        Plot.line(
+          [
+            [-limits.reach, -limits.reach],
+            [limits.reach, limits.reach],
+          ],
+          { stroke: "#bbb" },
+        ),
+        Plot.dot(pairs, {
+          x: "a",
+          y: "b",
+          r: "force",
+          fill: colours.rod,
+          fillOpacity: 0.35,
+          className: "pairs",
+        }),
+        Plot.tip(
+          pairs,
+          Plot.pointer({ x: "a", y: "b", title: (p) => `force F D²/(4B) = ${number(p.force)}` }),
+        ),
+      ],
+    });
+}
+
 /** A column of the centerline files at every state, coloured by ebar. */
 export function profiles(result, fidelity, column, text, factor) {
   return (width) => {

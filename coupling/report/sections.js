@@ -57,11 +57,16 @@ export function forces(result) {
   );
 }
 
-export function curvatures(result) {
-  const chosen = result.states.filter((state) => Object.keys(state.lines).length > 0);
-  if (chosen.length === 0) return null;
+/** At most `several` of the states for which there is something, the last one among them. */
+function someOf(states, there) {
+  const chosen = states.filter(there);
   const every = Math.ceil(chosen.length / several);
-  const states = chosen.filter((_, i) => (chosen.length - 1 - i) % every === 0);
+  return chosen.filter((_, i) => (chosen.length - 1 - i) % every === 0);
+}
+
+export function curvatures(result) {
+  const states = someOf(result.states, (state) => Object.keys(state.lines).length > 0);
+  if (states.length === 0) return null;
   const lines = states.flatMap((state) => Object.values(state.lines));
   const kappa =
     1.05 * Math.max(...lines.map((line) => line.kappa.reduce((a, b) => Math.max(a, b), 0)));
@@ -86,6 +91,34 @@ export function curvatures(result) {
     ),
     h("div", { class: "panels" }, states.map(panel)),
   );
+}
+
+export function contacts(result) {
+  const states = someOf(result.states, (state) => state.contacts?.s_a?.length > 0);
+  if (states.length === 0) return null;
+  const reach = 1.1 * Math.max(...states.map((state) => furthest(state)));
+  const panel = (state) => {
+    const force = state.contacts.force_normalised.reduce((a, b) => Math.max(a, b), 0);
+    return figure(
+      `contacts ${state.name}`,
+      h("b", {}, `ē = ${short(state.ebar)}`),
+      along.contacts(state, { reach, force }),
+    );
+  };
+  return section(
+    "Contact of the rod",
+    h(
+      "p",
+      {},
+      "Each mark is a pair of places where the rod touches itself, by their distances from the knot's middle along the rod; its area grows with the force, in each panel from zero to the largest. [rod/contacts/*.csv]",
+    ),
+    h("div", { class: "panels" }, states.map(panel)),
+  );
+}
+
+function furthest({ contacts: { s_a, s_b }, lines: { rod } }) {
+  const away = (values) => values.reduce((a, s) => Math.max(a, Math.abs(s - rod.middle)), 0);
+  return Math.max(away(s_a), away(s_b));
 }
 
 export function profiles(result) {

@@ -57,7 +57,7 @@ solid3d::Mesh short_mesh() { return solid3d::make_mesh(solid3d::make_section(12)
 // A finished run of both fidelities, as far as a report looks at it: two states of the rod, the
 // second of the solid too.
 void write_result(const TemporaryFolder& folder) {
-  for (const char* name : {"rod/centerline", "solid/centerline", "solid/vtu"})
+  for (const char* name : {"rod/centerline", "rod/contacts", "solid/centerline", "solid/vtu"})
     fs::create_directories(folder / name);
   folder.write("scene.toml",
                small_scene_with("\"8.3 mm\"", "0.0083") + "[effects]\nfriction = 0.1\n");
@@ -70,6 +70,7 @@ void write_result(const TemporaryFolder& folder) {
   folder.write("rod/centerline/ebar_+020.000.csv", line);
   folder.write("rod/centerline/ebar_+019.000.csv", line);
   folder.write("solid/centerline/ebar_+019.000.csv", line);
+  folder.write("rod/contacts/ebar_+019.000.csv", "s_a,s_b,force_normalised\n0.25,1.75,0.01\n");
   Series rod(folder / "rod/rod.pvd"), solid(folder / "solid/solid.pvd");
   rod.add(20, "vtu/ebar_+020.000.vtu");
   rod.add(19, "vtu/ebar_+019.000.vtu");
@@ -187,6 +188,8 @@ TEST_CASE("the data of a page are those of the files") {
   const Json& tight = states["list"][1];
   CHECK(tight["ebar"] == 19.0);
   CHECK(unpacked(tight["rod"]["kappa"])[1] == Approx(0.5));
+  CHECK_FALSE(states["list"][0].contains("contacts"));
+  CHECK(unpacked(tight["contacts"]["s_b"]) == std::vector<double>{1.75});
   const auto line_z = unpacked(tight["solid"]["z"]);
   REQUIRE(line_z.size() == 3);
   CHECK(line_z.front() == -1);

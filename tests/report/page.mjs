@@ -84,6 +84,8 @@ check("iterations: a mark a row", (await marks("iterations", "steps")) === rod +
 check("residual: a mark a row", (await marks("residual", "steps")) === rod + solid);
 const curved = await points("curvature ebar_+019.000");
 check("curvature of both", curved.length === 2 && curved.every((n) => n > 30), curved);
+const pairs = await marks("contacts ebar_+019.000", "pairs");
+check("a mark a contact", pairs === rows("rod/contacts/ebar_+019.000.csv"), pairs);
 check("contact force of every state", (await points("rod contact_force")).length === 4);
 check("title", (await page.locator("h1").textContent()) === "Test & <small> knot");
 check("states in the table", (await page.locator("section:nth-of-type(2) tbody tr").count()) === 4);
