@@ -1,5 +1,5 @@
 import * as Plot from "@observablehq/plot";
-import { max, min } from "d3";
+import { extent, max, min } from "d3";
 import { colours, measuredColours } from "./colours.js";
 import { curves, decades, ebarAxis, plot } from "./curves.js";
 import { loosens } from "./result.js";
@@ -44,8 +44,10 @@ export function force(result, log) {
           stroke: colours.law,
           strokeDasharray: "5,4",
         }),
-        lawLabel(below("tightening"), (value) =>
-          log ? Math.log(value / bottom) / Math.log(top / bottom) : value / top,
+        lawLabel(
+          below("tightening"),
+          (value) => (log ? Math.log(value / bottom) / Math.log(top / bottom) : value / top),
+          extent(all, (row) => row.ebar),
         ),
         loosens(result)
           ? Plot.line(below("loosening"), {
@@ -65,10 +67,10 @@ export function force(result, log) {
 }
 
 /** Beside the law at a quarter of the height, where the law is steep: what lies right below it is free. */
-function lawLabel(rows, height) {
-  const quarter = rows.findIndex((row) => height(row.tightening) >= 0.25);
-  const steep = quarter >= 0 && quarter < 0.92 * rows.length;
-  const at = rows[steep ? quarter : Math.floor(0.5 * rows.length)];
+function lawLabel(rows, height, [tight, loose]) {
+  const quarter = rows.find((row) => height(row.tightening) >= 0.25);
+  const steep = quarter?.ebar > tight + 0.1 * (loose - tight);
+  const at = steep ? quarter : rows[Math.floor(0.5 * rows.length)];
   return Plot.text(at ? [at] : [], {
     x: "ebar",
     y: "tightening",

@@ -36,7 +36,7 @@ export function forces(result) {
     ...result.measured.map((of) => of.name),
   ].join(", ");
   const law =
-    "Dashed: loose-knot law T̄ = π²/(2ē²) + 0.492 μ (π/ē)^1.5 (Audoly, Clauvelin, Neukirch 2007), a limit for ē → ∞";
+    "Dashed: loose-knot law T̄ = π²/(2ē²) + 0.492 μ (π/ē)^1.5 of an overhand knot (Audoly, Clauvelin, Neukirch 2007), a limit for ē → ∞";
   return section(
     "Force",
     row(
