@@ -14,7 +14,7 @@ namespace bight {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepRow, ebar, tension, energy, dissipated, max_penetration,
                                    contact_pairs, newton_iterations, wall_s, increment, cutbacks,
                                    cut_reason, residual, reaction_mismatch, min_jacobian, end_turn,
-                                   end_torque, snapped, time, kinetic, ebar_unstretched)
+                                   end_torque, snapped, time, kinetic, flattening, ebar_unstretched)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathOutcome, reason, steps, iterations, factorisations, cutbacks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathProgress, leg, ebar, step, so_far)
 

@@ -9,6 +9,7 @@
 #include "coupling/recorder.h"
 #include "coupling/results_folder.h"
 #include "coupling/sweep.h"
+#include "coupling/validity.h"
 #include "coupling/write_summary.h"
 
 namespace bight::coupling {
@@ -48,8 +49,14 @@ Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recor
   if (report.solid) curves.push_back(curve("solid", report.solid->steps));
   const Comparison comparison = compare(curves, scene.friction);
   write_comparison(recorder.folder() / "compare.csv", comparison);
+  std::string verdict;
+  if (scene.rod) {
+    const std::vector<RodError> errors = rod_errors(report.rod.steps);
+    write_rod_errors(recorder.folder() / "rod" / "validity.csv", errors);
+    verdict = validity_sentence(errors, verdict_level) + "\n";
+  }
   recorder.progress.say(
-      comparison_text(comparison) +
+      comparison_text(comparison) + verdict +
       curvature_text("rod", "solid",
                      compare_centerlines(recorder.folder() / "rod", recorder.folder() / "solid")));
   return comparison;

@@ -12,14 +12,17 @@
 
 #include "coupling/compare_centerlines.h"
 #include "coupling/files.h"
+#include "coupling/validity.h"
 
 namespace bight::coupling {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The rod is a theory of small strain and round sections: bending strain kappa D/2, stretch - 1.
-constexpr double largest_bending_strain = 0.25, largest_stretch_strain = 0.05;
+/// Relative errors in T that are reported.
+constexpr double levels[] = {0.02, 0.05, 0.1};
+
+std::string percent(double level) { return fmt::format("{:.0f} %", 100 * level); }
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -80,13 +83,9 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
       {"segments", scene.segments}, {"unknowns", rod.unknowns}, {"effects", rod.effects}};
   result.update(path_numbers(rod.outcome, rod.steps));
   result["seconds"] = rod.seconds;
-  Json valid_down_to;  // null: not even at the first state
-  bool valid = true;
   for (const rod1d::RodState& state : rod.states) {
     const double bending = 0.5 * std::ranges::max(state.curvature);
     const double stretch = std::ranges::max(state.stretch) - 1;
-    valid = valid && bending < largest_bending_strain && stretch < largest_stretch_strain;
-    if (valid) valid_down_to = state.ebar;
     result["states"].push_back(
         {{"ebar", state.ebar},
          {"force_normalised", normalised_force(state.tension)},
@@ -96,9 +95,15 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
          {"largest_stretch_strain", stretch},
          {"energy_J", energies(state.energy_by_effect, scene.scales().energy())}});
   }
-  result["validity"] = {{"largest_bending_strain_allowed", largest_bending_strain},
-                        {"largest_stretch_strain_allowed", largest_stretch_strain},
-                        {"valid_down_to_recorded_ebar", valid_down_to}};
+  const std::vector<RodError> errors = rod_errors(rod.steps);
+  result["validity"]["sentence"] = validity_sentence(errors, verdict_level);
+  for (const double level : levels) {
+    Json& down_to = result["validity"]["down_to_ebar"][percent(level)];
+    if (const auto valid = valid_down_to(errors, level))
+      down_to = {{"ebar", valid->ebar},
+                 {"range", {valid->earliest, valid->latest}},
+                 {"reached", valid->reached}};
+  }
   return result;
 }
 
@@ -127,10 +132,9 @@ Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
 
 Json comparison_numbers(const Comparison& comparison, const Recorder& recorder) {
   Json result;
-  for (const double level : {0.02, 0.05, 0.1}) {
+  for (const double level : levels) {
     const auto parted = parted_at(comparison, 1, level);
-    result["parted_from_ebar"][fmt::format("{:.0f} %", 100 * level)] =
-        parted ? Json(*parted) : Json();
+    result["parted_from_ebar"][percent(level)] = parted ? Json(*parted) : Json();
   }
   const auto curvature =
       compare_centerlines(recorder.folder() / "rod", recorder.folder() / "solid");

@@ -39,6 +39,8 @@ struct StepRow {
   double snapped = 0;  ///< energy lost by jumping to another branch of equilibria [E D^3]; 0: none
   double time = 0;     ///< since the path began, where there is inertia [D sqrt(rho/E)]
   double kinetic = 0;  ///< part of the stored energy that is kinetic [E D^3]
+  /// Energy that round sections would store in flattening, if they could (rod) [E D^3].
+  double flattening = 0;
   double ebar_unstretched = 0;  ///< ebar of a rod of the stretched length: ebar + elongation/D
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 /// Points of strand b that are farther apart than this belong to different spots [D].
 constexpr double same_spot = 0.5;
-/// Pieces of strand a whose points are one spot, and how far a spot is remembered beside [D].
-constexpr double piece_length = 0.1, same_piece = 2 * piece_length;
+/// How far beside it a spot is remembered [D].
+constexpr double same_piece = 2 * piece_length;
 
 /// A point of the rod: weights of four nodes and three angles, from the segment before on.
 struct Place {

@@ -13,6 +13,9 @@ namespace bight::rod1d {
 constexpr int friction_coordinates = 30;
 std::array<int, friction_coordinates> friction_stencil(const Rod& rod, int a, int b);
 
+/// Pieces of strand a whose contact points are taken together [D].
+constexpr double piece_length = 0.1;
+
 /// Where a short piece of strand a is pressed, and by how much: contact points, summed.
 struct RubbingPoint {
   double arc_a = 0, arc_b = 0;  ///< undeformed arc length of the mean places on both strands [D]

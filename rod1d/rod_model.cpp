@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mechanics/knot_type.h"
+#include "rod1d/flattening.h"
 #include "rod1d/grip.h"
 #include "rod1d/measure.h"
 #include "rod1d/pin.h"
@@ -275,6 +276,8 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {
     std::tie(row.contact_pairs, row.max_penetration) = effects_.contact->touching(result.x);
+    row.flattening = flattening_energy(rubbing_points(rod_, effects_.contact->points(result.x)),
+                                       parameters_.poissons_ratio);
     const double aimed = aimed_overlap * parameters_.penetration;
     // Mostly with the tension, which is smooth along the path: the largest overlap is less so, as
     // it depends on where the samples lie, and the extrapolation would feel it.

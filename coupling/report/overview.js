@@ -120,15 +120,7 @@ export function verdict(result) {
     );
   }
   const valid = result.summary?.rod?.validity;
-  if (valid) {
-    const allowed = `κD/2 < ${short(valid.largest_bending_strain_allowed)}, stretch < ${short(100 * valid.largest_stretch_strain_allowed)} %`;
-    const down = valid.valid_down_to_recorded_ebar;
-    sentences.push(
-      down == null
-        ? `By its own strains (${allowed}) the rod is outside its theory at every recorded state.`
-        : `By its own strains (${allowed}) the rod is within its theory down to the recorded ē = ${short(down)}.`,
-    );
-  }
+  if (valid) sentences.push(`From its own contact forces: ${valid.sentence}.`);
   return sentences.map((sentence) => h("p", {}, sentence));
 }
 

@@ -54,7 +54,7 @@ rod1d::RodState seed(const Case& c) {
   p.from_straight = c.knot != "overhand";
   p.friction = c.friction;
   p.twist = c.friction > 0;
-  p.path.waypoints = {std::max(30.0, c.from), c.from};
+  p.path.waypoints = {std::max(28.0, c.from), c.from};
   p.path.record = {c.from};
   rod1d::RodState found;
   rod1d::RodObserver observer;
@@ -68,6 +68,7 @@ void run(Case c) {
   std::printf("%s: %s knot, section of %d cells, ebar %g -> %g, mu = %g\n", c.name.c_str(),
               c.knot.c_str(), c.section, c.from, c.to, c.friction);
   const rod1d::RodState rod = seed(c);
+  if (rod.nodes.empty()) return;
   const auto mesh =
       coupling::swept_mesh({.section_elements = c.section, .axial_ratio = c.axial_ratio}, rod);
   const auto start = coupling::sweep(mesh, rod);
