@@ -26,6 +26,7 @@ void add_scene(CLI::App* sub, Command& command) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->trigger_on_parse(false);
+  sub->add_option("--case", command.only_case, "This case of the scene alone")->type_name("NAME");
 }
 
 void add_run_options(CLI::App* sub, Command& command) {

@@ -12,6 +12,7 @@ struct Command {
   std::string verb;
   std::filesystem::path scene;
   std::vector<std::filesystem::path> sources;   ///< of `compare`
+  std::string only_case;                        ///< of a scene with cases; empty: all
   std::filesystem::path results;                ///< of `report`
   std::vector<std::filesystem::path> measured;  ///< of `report`, laid over the force curves
   std::filesystem::path script;                 ///< of `report`; empty: not given

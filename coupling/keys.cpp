@@ -142,6 +142,8 @@ const std::vector<Key>& all_keys() {
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
        "Distance of contact samples on the surface, in D", Fineness::size},
 
+      {"cases", cases, "", {}, {}, "", "none: the scene is one case",
+       "Cases run one after another: a table of names, each with the keys that differ from the scene"},
       {"study.grid", grid, "", {}, {}, "", "none: given by --grid",
        "What `bight study` varies: a table of keys, each with a list of values"},
       {"study.extrapolate", text, "", {}, {}, R"("")", "",
@@ -196,6 +198,8 @@ std::string allowed(const Key& key) {
       return "text";
     case Kind::file:
       return "the name of a file, relative to the scene";
+    case Kind::cases:
+      return "tables such as [cases.rough] with effects.friction = 0.32";
     case Kind::grid:
       return "a table such as { rod1d.segments = [85, 170, 340] }";
   }

@@ -7,7 +7,20 @@
 
 namespace bight::coupling {
 
-enum class Kind { quantity, number, integer, boolean, word, words, numbers, quantities, text, file, grid };
+enum class Kind {
+  quantity,
+  number,
+  integer,
+  boolean,
+  word,
+  words,
+  numbers,
+  quantities,
+  text,
+  file,
+  grid,
+  cases
+};
 
 /// What another value of a key makes of a result: another problem; the same problem solved another
 /// way; or the same problem, finer or coarser. Then the size h, with which errors fall, goes with

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "coupling/cases.h"
 #include "coupling/command_line.h"
 #include "coupling/compare.h"
 #include "coupling/compare_centerlines.h"
@@ -57,8 +58,11 @@ ExitStatus study_scene(const Command& command) {
 ExitStatus obey(const Command& command) {
   if (command.verb == "keys") return fmt::print("{}", keys_table()), done;
   if (command.verb == "compare") return compare_sources(command);
-  if (command.verb == "check")
-    return fmt::print("{}", expectations(read_scene(command.scene, command.settings))), done;
+  if (command.verb == "check") {
+    for (const SceneCase& c : read_cases(command.scene, command.settings, {}, command.only_case))
+      fmt::print("{}{}", c.name.empty() ? "" : "case " + c.name + "\n", expectations(c.scene));
+    return done;
+  }
 
   if (command.verb == "study") return study_scene(command);
   if (command.verb == "report")
@@ -66,14 +70,17 @@ ExitStatus obey(const Command& command) {
 
   const std::vector<std::string> only =
       command.verb == "run" ? std::vector<std::string>{} : std::vector{command.verb};
-  const Scene scene = read_scene(command.scene, command.settings, only);
+  const std::vector<SceneCase> cases =
+      read_cases(command.scene, command.settings, only, command.only_case);
   catch_interrupts();
-  return run(scene, {.folder = command.out.empty() ? std::filesystem::path("results") / scene.name
-                                                   : command.out,
-                     .threads = command.threads,
-                     .resume = command.resume,
-                     .force = command.force,
-                     .quiet = command.quiet});
+  const RunOptions options{.folder = command.out.empty()
+                                         ? std::filesystem::path("results") / cases[0].scene.name
+                                         : command.out,
+                           .threads = command.threads,
+                           .resume = command.resume,
+                           .force = command.force,
+                           .quiet = command.quiet};
+  return run_cases(cases, options);
 }
 
 ExitStatus fail(ExitStatus status, const std::exception& error) {

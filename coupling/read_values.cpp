@@ -2,6 +2,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -89,6 +90,7 @@ Value to_value(const Key& key, const toml::node& node) {
     case Kind::quantities:
       return to_list(key, node, to_number);
     case Kind::grid:
+    case Kind::cases:
       throw not_allowed(key, shown(node));
   }
   return {};
@@ -144,6 +146,47 @@ void take_grid(const std::string& prefix, const toml::table& table, const std::s
   }
 }
 
+using ByPlace = std::map<std::pair<uint32_t, uint32_t>, std::string>;
+
+// What a case sets, as "NAME: key=value", in the order of the lines.
+void take_case(const std::string& name, const std::string& prefix, const toml::table& table,
+               const std::string& scene, ByPlace& lines, Problems& problems) {
+  for (const auto& [key, node] : table) {
+    const std::string path = prefix + std::string(key.str());
+    const auto [line, column] = key.source().begin;
+    if (const toml::table* inner = node.as_table())
+      take_case(name, path + '.', *inner, scene, lines, problems);
+    else if (!find_key(path))
+      problems.add(fmt::format("{}:{}", scene, line), "cases." + name + "." + path,
+                   unknown_key(path));
+    else
+      lines[{line, column}] = name + ": " + path + '=' + toml_text(node);
+  }
+}
+
+std::vector<std::string> take_cases(const toml::table& cases, const std::string& scene,
+                                    Problems& problems) {
+  ByPlace lines;
+  for (const auto& [key, node] : cases) {
+    const std::string name(key.str());
+    const auto [line, column] = key.source().begin;
+    const bool good = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+      return std::isalnum(c) || c == '-' || c == '_';
+    });
+    if (!good || !node.is_table()) {
+      problems.add(fmt::format("{}:{}", scene, line), "cases." + name,
+                   good ? "a case is a table of the keys that differ from the scene"
+                        : "the name of a case has letters, digits, - and _");
+      continue;
+    }
+    lines[{line, 0}] = name + ": ";
+    take_case(name, "", *node.as_table(), scene, lines, problems);
+  }
+  std::vector<std::string> list;
+  for (const auto& [place, text] : lines) list.push_back(text);
+  return list;
+}
+
 void take_table(const std::string& prefix, const toml::table& table, const std::string& name,
                 Values& values, Problems& problems) {
   for (const auto& [key, node] : table) {
@@ -155,6 +198,8 @@ void take_table(const std::string& prefix, const toml::table& table, const std::
       std::vector<std::string> lines;
       for (const auto& [place, line] : grid) lines.push_back(line);
       values.set(path, {lines, where});
+    } else if (known && known->kind == Kind::cases && node.is_table()) {
+      values.set(path, {take_cases(*node.as_table(), name, problems), where});
     } else if (node.is_table() && !(node.as_table()->empty() && find_key(path)))
       take_table(path + '.', *node.as_table(), name, values, problems);
     else

@@ -29,7 +29,7 @@ class Recorder {
 
   Phases phases;
   Progress progress;
-  std::optional<rod1d::RodState> seed;            ///< the rod's state at the scene's seed_ebar
+  std::optional<rod1d::RodState> seed;  ///< the rod's state at the scene's seed_ebar
   std::vector<StepRow> solid_rows;
   std::vector<solid3d::SolidState> solid_states;  ///< without their fields, for the summary
 

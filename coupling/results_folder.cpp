@@ -43,6 +43,7 @@ void clear(const fs::path& folder) {
     fs::remove(folder / fidelity / "force.csv");
     fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
     fs::remove(folder / fidelity / "tie.pvd");
+    fs::remove(folder / fidelity / "validity.csv");
     for (const char* kind : {"centerline", "vtu", "contacts", "tie"})
       fs::remove_all(folder / fidelity / kind);
   }

@@ -122,6 +122,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.sample_spacing = values.number("solid3d.sample_spacing");
   scene.rod_symmetry = values.get<bool>("rod1d.symmetry");
   scene.symmetry = values.get<bool>("solid3d.symmetry");
+  scene.cases = values.get<std::vector<std::string>>("cases");
   scene.grid = values.get<std::vector<std::string>>("study.grid");
   scene.extrapolate = values.word("study.extrapolate");
   scene.text = values.toml();

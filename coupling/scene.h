@@ -41,8 +41,9 @@ struct Scene {
   double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;
   double contact_stiffness = 0, solid_penetration = 0, sample_spacing = 0;
 
-  std::vector<std::string> grid;  ///< of a study, "key=value, value"
-  std::string extrapolate;        ///< key over which its reference is extrapolated
+  std::vector<std::string> cases;  ///< "NAME: " and "NAME: key=value"; empty: the scene is one
+  std::vector<std::string> grid;   ///< of a study, "key=value, value"
+  std::string extrapolate;         ///< key over which its reference is extrapolated
 
   std::vector<std::string> warnings;  ///< allowed, but hardly meant
   std::string text;                   ///< the scene with every default and override filled in

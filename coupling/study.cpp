@@ -76,6 +76,9 @@ void write_slurm_array(const fs::path& file, const Study& plan, const std::vecto
 Study plan_study(const fs::path& scene, const std::vector<std::string>& settings,
                  const std::vector<std::string>& grid, const fs::path& out) {
   const Scene base = read_scene(scene, settings);
+  if (!base.cases.empty())
+    throw InputError(scene.string() +
+                     ": cases: a study is of one case; give it what differs as --set");
   Study plan{whole(scene),
              base.name,
              base.extrapolate,

@@ -58,7 +58,8 @@ std::string Values::toml() const {
   std::string text, section;
   for (const Key& key : all_keys()) {
     const auto found = given_.find(std::string(key.path));
-    if (found == given_.end() || key.path.starts_with("study.")) continue;
+    if (found == given_.end() || key.path.starts_with("study.") || key.kind == Kind::cases)
+      continue;
     const size_t dot = key.path.find('.');
     if (dot != key.path.npos && key.path.substr(0, dot) != section) {
       section = key.path.substr(0, dot);

@@ -11,7 +11,7 @@
 namespace bight::coupling {
 
 /// What a scene gives for a key, in SI; integers are whole doubles, words are strings; a grid is a
-/// list of "key=value, value".
+/// list of "key=value, value", cases one of "NAME: " and "NAME: key=value".
 using Value =
     std::variant<bool, double, std::string, std::vector<double>, std::vector<std::string>>;
 
@@ -50,7 +50,7 @@ class Values {
   }
   double number(std::string_view key) const { return get<double>(key); }
   std::string word(std::string_view key) const { return get<std::string>(key); }
-  /// A scene that reads back to these values, without what only a study reads.
+  /// A scene that reads back to these values, without what only a study reads and without cases.
   std::string toml() const;
 
  private:

@@ -120,7 +120,7 @@ export function verdict(result) {
     );
   }
   const valid = result.summary?.rod?.validity;
-  if (valid) sentences.push(`From its own contact forces: ${valid.sentence}.`);
+  if (valid?.sentence) sentences.push(`From its own contact forces: ${valid.sentence}.`);
   return sentences.map((sentence) => h("p", {}, sentence));
 }
 
