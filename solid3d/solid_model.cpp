@@ -21,6 +21,8 @@ constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
+/// Times that a start is tried with contact a tenth as stiff.
+constexpr int softer_starts = 2;
 /// Friction has settled when the end tension changes by less than this part of it.
 constexpr double friction_settled = 5e-4;
 constexpr int max_friction_passes = 10;
@@ -96,8 +98,18 @@ Vector SolidModel::best_guess(const Vector& guess, double ebar) {
 }
 
 NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
-  NewtonResult result =
-      effects_.friction ? solve_with_friction(guess) : solve_frictionless(best_guess(guess, ebar));
+  const auto attempt = [&] {
+    return effects_.friction ? solve_with_friction(guess)
+                             : solve_frictionless(best_guess(guess, ebar));
+  };
+  NewtonResult result = attempt();
+  // A tight start overlaps by more than stiff contact can push out at once.
+  for (int i = 0; !result.ok() && relaxing_ && effects_.contact && i < softer_starts; ++i) {
+    effects_.contact->law().stiffness *= 0.1;
+    const NewtonResult failed = std::move(result);
+    result = attempt();
+    result.count_on(failed);
+  }
   if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
     result.status = NewtonStatus::rejected;
     result.reason = "a strand has passed through another";
@@ -183,6 +195,7 @@ NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
 
 StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
   const Vector before = newest();
+  relaxing_ = false;
   // A turn of the path or a state at the same ebar gives no rate to go on with.
   if (history_.back().ebar == ebar) history_.pop_back();
   if (history_.size() > 1 &&
@@ -260,6 +273,7 @@ SolidCheckpoint SolidModel::saved() const {
 }
 
 void SolidModel::restore(const SolidCheckpoint& at) {
+  relaxing_ = false;
   history_ = at.history;
   tension_ = at.tension;
   if (effects_.contact) effects_.contact->law().stiffness = at.contact_stiffness;

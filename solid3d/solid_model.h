@@ -108,6 +108,7 @@ class SolidModel final : public PathModel {
   System system_;
   double tension_;
   int determinant_ = 0;
+  bool relaxing_ = true;  ///< the start is not yet in equilibrium
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;
   Vector frozen_at_;              ///< where friction's spots were taken from

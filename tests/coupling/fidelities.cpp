@@ -18,15 +18,17 @@ namespace {
 constexpr double length = 350 / 8.3, seed_ebar = 20;
 constexpr double tight_bound = 0.002;  ///< of the overlap: makes contact stiffen on the way [D]
 
+rod1d::RodState rod_at(double ebar, double of_length = length) {
+  rod1d::RodParameters parameters;
+  parameters.length = of_length;
+  if (of_length == length) parameters.start = rod1d::overhand_start(length, 30, 340);
+  parameters.path.waypoints = {of_length == length ? 30 : ebar, ebar};
+  parameters.path.record = {ebar};
+  return rod1d::run_rod(parameters).states.at(0);
+}
+
 const rod1d::RodState& seed() {
-  static const rod1d::RodState state = [] {
-    rod1d::RodParameters parameters;
-    parameters.length = length;
-    parameters.start = rod1d::overhand_start(length, 30, 340);
-    parameters.path.waypoints = {30, seed_ebar};
-    parameters.path.record = {seed_ebar};
-    return rod1d::run_rod(parameters).states.at(0);
-  }();
+  static const rod1d::RodState state = rod_at(seed_ebar);
   return state;
 }
 
@@ -227,4 +229,21 @@ TEST_CASE("friction of the solid holds the knot, and work goes into energy and d
   const double work = 0.5 * (last.tension + before.tension) * (before.ebar - last.ebar);
   CHECK(last.energy - before.energy + last.dissipated - before.dissipated ==
         Approx(work).epsilon(0.03));
+}
+
+TEST_CASE("the paper's short rod, too tight to begin with stiff contact, is relaxed and tightened",
+          "[.long][long]") {
+  const rod1d::RodState tight = rod_at(11.5, 130 / 8.3);
+  std::vector<double> tension;
+  for (const int section : {12, 32}) {
+    const solid3d::Mesh mesh = swept_mesh({.section_elements = section}, tight);
+    solid3d::SolidParameters parameters;
+    parameters.expected_tension = tight.tension;
+    parameters.path.waypoints = {11.5, 11};
+    const auto result = solid3d::run_solid(mesh, sweep(mesh, tight), 11.5, parameters);
+    REQUIRE(result.outcome.status == PathStatus::finished);
+    CHECK(result.steps[0].max_penetration <= parameters.penetration);
+    tension.push_back(result.steps.back().tension);
+  }
+  CHECK(tension[0] == Approx(tension[1]).epsilon(0.03));
 }
