@@ -8,6 +8,7 @@
 #include "coupling/effects.h"
 #include "coupling/errors.h"
 #include "coupling/knot_start.h"
+#include "coupling/scene_material.h"
 
 namespace bight::coupling {
 namespace {
@@ -87,9 +88,10 @@ class Check {
   void material() {
     const double nu = scene_.poissons_ratio;
     const double of_nu = 2 * (1 + nu) / (3 * (1 - 2 * nu));
-    if (nu < 0.5 && std::abs(scene_.bulk_to_shear - of_nu) > 1e-9 * of_nu)
+    if (nu < 0.5 && std::abs(scene_.material.bulk_to_shear - of_nu) > 1e-9 * of_nu)
       refuse("material.bulk_to_shear",
              fmt::format("only free when poissons_ratio is 0.5; {} means {}", nu, of_nu));
+    check_moduli(values_, problems_);
     const double density = values_.number("material.density");
     if (density < 10)
       warn("material.density", fmt::format("{} kg/m^3 is hardly a solid (the paper's printed 1.160 "

@@ -1,5 +1,7 @@
 #include "coupling/effects.h"
 
+#include "solid3d/elements.h"
+
 namespace bight::coupling {
 
 std::vector<AskedEffect> asked_effects(const Scene& scene) {
@@ -8,6 +10,8 @@ std::vector<AskedEffect> asked_effects(const Scene& scene) {
       {"bend", "", true, false},
       {"strain", "", false, true},
   };
+  if (solid3d::hex_element(scene.element).hourglass)
+    effects.push_back({"hourglass", "solid3d.element", false, true});
   if (scene.contact) effects.push_back({"contact", "effects.contact"});
   if (scene.friction > 0) effects.push_back({"friction", "effects.friction"});
   if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solid3d/elements.h"
+#include "solid3d/material.h"
+
 namespace bight::coupling {
 namespace {
 
@@ -41,6 +44,12 @@ std::string_view in_a_study(Fineness fineness) {
   }
 }
 
+std::vector<std::string_view> element_names() {
+  std::vector<std::string_view> names;
+  for (const solid3d::HexElement& element : solid3d::hex_elements()) names.push_back(element.name);
+  return names;
+}
+
 std::string_view last_part(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
@@ -61,15 +70,22 @@ const std::vector<Key>& all_keys() {
       {"rod.natural_twist", quantity, "rad/m", {-1e6, 1e6}, {}, "0", "",
        "Of the free rod's material frames, about which natural_curvature turns along it: a helix"},
 
-      {"material.model", word, "", {}, {"neo-hookean"}, R"("neo-hookean")", "",
+      {"material.model", word, "", {}, solid3d::material_names(), R"("neo-hookean")", "",
        "Stored energy of the solid; the rod is linear in its strains"},
-      {"material.youngs_modulus", quantity, "Pa", above(0), {}, "", "required",
+      {"material.youngs_modulus", quantity, "Pa", above(0), {}, "",
+       "required, unless c10 and c01 or ogden_moduli say it",
        "Young's modulus E at small strain"},
       {"material.poissons_ratio", number, "", {0, 0.5}, {}, "0.5", "",
        "Poisson's ratio; 0.5 is incompressible, which the solid approaches by bulk_to_shear"},
       {"material.bulk_to_shear", number, "", {0.66, 1e6}, {}, "",
        "1000 for poissons_ratio 0.5, else 2 (1 + nu)/(3 (1 - 2 nu))",
        "Bulk modulus over shear modulus of the solid"},
+      {"material.c10", quantity, "Pa", {0, infinity}, {}, "", "needed by mooney-rivlin",
+       "Of C10 (I1 - 3) + C01 (I2 - 3); the shear modulus is 2 (C10 + C01), D1 is 2/K"},
+      {"material.c01", quantity, "Pa", {0, infinity}, {}, "", "needed by mooney-rivlin", "See c10"},
+      {"material.ogden_moduli", quantities, "Pa", {}, {}, "", "needed by ogden",
+       "mu_i, at most 3, of the sum of 2 mu_i/a_i^2 (l1^a_i + l2^a_i + l3^a_i - 3); their sum is the shear modulus"},
+      {"material.ogden_exponents", numbers, "", {-30, 30}, {}, "", "needed by ogden", "a_i, see ogden_moduli"},
       {"material.density", quantity, "kg/m^3", above(0), {}, "1160", "",
        "Mass per volume; used by effects that know inertia or gravity"},
 
@@ -127,6 +143,10 @@ const std::vector<Key>& all_keys() {
 
       {"solid3d.section_elements", integer, "", {12, 2000}, {}, "32", "",
        "About this many hexahedra in a cross-section (12, 32, 60, 108 fit exactly)", Fineness::count_per_area},
+      {"solid3d.element", word, "", {}, element_names(), R"("three-field")", "",
+       "8-node hexahedron: three fields at 2 x 2 x 2 points, or one point with hourglass stiffness", Fineness::choice},
+      {"solid3d.hourglass_factor", number, "", {0.01, 10}, {}, "1", "",
+       "Of the hourglass stiffness of reduced-hybrid; 1 bends a brick exactly", Fineness::choice},
       {"solid3d.seed_ebar", number, "", {-1e5, 1e5}, {}, "", "the first waypoint",
        "ebar at which the rod's state becomes the solid's start"},
       {"solid3d.axial_ratio", number, "", {0.1, 5}, {}, "0.8", "",

@@ -258,6 +258,10 @@ Values read_values(const std::string& text, const std::string& name,
     else if (key.otherwise == "required")
       problems.add(name, path, "missing; write " + allowed(key));
   }
+  if (!values.has("material.youngs_modulus") && !problems.about("material.youngs_modulus") &&
+      !values.has("material.c10") && !values.has("material.ogden_moduli"))
+    problems.add(name, "material.youngs_modulus",
+                 "missing; write " + allowed(*find_key("material.youngs_modulus")));
   if (!values.has("path.ebar") && !values.has("path.force") && !problems.about("path.ebar") &&
       !problems.about("path.force"))
     problems.add(name, "path.ebar",

@@ -10,6 +10,7 @@
 #include "coupling/check_scene.h"
 #include "coupling/errors.h"
 #include "coupling/knot_start.h"
+#include "coupling/scene_material.h"
 #include "coupling/values.h"
 
 namespace bight::coupling {
@@ -34,6 +35,8 @@ void derive(Values& values, const char* key, const T& value) {
 void derive_defaults(Values& values) {
   const double nu = values.number("material.poissons_ratio");
   derive(values, "material.bulk_to_shear", nu == 0.5 ? 1000.0 : 2 * (1 + nu) / (3 * (1 - 2 * nu)));
+  if (moduli_sum(values) > 0)
+    derive(values, "material.youngs_modulus", youngs_modulus_of(moduli_sum(values), values));
   if (!values.has("knot.centerline")) derive(values, "knot.type", std::string("overhand"));
   const bool straight =
       values.number("rod.natural_curvature") == 0 && values.number("rod.natural_twist") == 0;
@@ -89,7 +92,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.natural_curvature = values.number("rod.natural_curvature");
   scene.natural_twist = values.number("rod.natural_twist");
   scene.density = values.number("material.density");
-  scene.bulk_to_shear = values.number("material.bulk_to_shear");
+  scene.material = material_parameters(values);
   scene.knot = values.word("knot.type");
   scene.from_straight = values.word("knot.start") == "straight";
   scene.centerline = values.word("knot.centerline");
@@ -114,6 +117,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.rod_penetration = values.number("rod1d.penetration");
   scene.stretch_stiffness_factor = values.number("rod1d.stretch_stiffness_factor");
   scene.section_elements = static_cast<int>(values.number("solid3d.section_elements"));
+  scene.element = values.word("solid3d.element");
+  scene.hourglass_factor = values.number("solid3d.hourglass_factor");
   scene.seed_ebar = values.number("solid3d.seed_ebar");
   scene.axial_ratio = values.number("solid3d.axial_ratio");
   scene.tail_ratio = values.number("solid3d.tail_ratio");
@@ -183,7 +188,9 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
 
 solid3d::SolidParameters solid_parameters(const Scene& scene) {
   solid3d::SolidParameters solid;
-  solid.bulk_to_shear = scene.bulk_to_shear;
+  solid.material = scene.material;
+  solid.element = scene.element;
+  solid.hourglass_factor = scene.hourglass_factor;
   solid.finish_turns = scene.finish_turns;
   solid.contact = scene.contact;
   solid.contact_stiffness = scene.contact_stiffness;

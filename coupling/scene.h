@@ -17,7 +17,8 @@ struct Scene {
   std::string name;  ///< file name without .toml
   std::string title;
   bool rod = true, solid = true;  ///< fidelities
-  double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5, bulk_to_shear = 1000;
+  double length = 0, diameter = 0, youngs_modulus = 0, poissons_ratio = 0.5;
+  solid3d::MaterialParameters material;
   double density = 0;
   std::string knot;                  ///< "overhand", "figure-eight"; empty with a centerline
   bool from_straight = false;        ///< that knot is tied from a straight rod
@@ -38,6 +39,8 @@ struct Scene {
   bool follow_knot = true;
   double rod_penetration = 0, stretch_stiffness_factor = 1;
   int section_elements = 0;
+  std::string element;  ///< of the solid
+  double hourglass_factor = 1;
   double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;
   double contact_stiffness = 0, solid_penetration = 0, sample_spacing = 0;
 

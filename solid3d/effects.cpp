@@ -1,5 +1,7 @@
 #include "solid3d/effects.h"
 
+#include "solid3d/elements.h"
+
 namespace bight::solid3d {
 
 namespace {
@@ -20,16 +22,19 @@ constexpr double contact_onset = 0.005;
 
 SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int internal_begin,
                           int first_layer) {
-  const NeoHookean material = NeoHookean::with_bulk_ratio(p.bulk_to_shear);
-  const double bulk_modulus = p.bulk_to_shear * material.shear_modulus;
+  const HexMesh hexahedra = mesh.hexahedra();
+  const HexElement& element = hex_element(p.element);
+  const int first_cell = first_layer * static_cast<int>(mesh.section.quads.size());
   Contact::Options contact;
   contact.sample_spacing = p.sample_spacing;
   contact.largest_move = p.largest_move;
   contact.first_layer = first_layer;
 
   SolidEffects effects;
-  effects.strain =
-      add<Strain>(effects.list, true, mesh, internal_begin, material, bulk_modulus, first_layer);
+  effects.strain = add<Strain>(effects.list, true, hexahedra, internal_begin,
+                               make_material(p.material), element.quadrature, first_cell);
+  add<Hourglass>(effects.list, element.hourglass, hexahedra, p.material.shear_modulus(),
+                 p.hourglass_factor, first_cell);
   effects.contact = add<Contact>(effects.list, p.contact, mesh,
                                  ContactLaw{p.contact_stiffness, contact_onset}, contact);
   if (effects.contact)

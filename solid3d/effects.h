@@ -3,6 +3,7 @@
 #include "mechanics/assemble.h"
 #include "solid3d/effects/contact.h"
 #include "solid3d/effects/friction.h"
+#include "solid3d/effects/hourglass.h"
 #include "solid3d/effects/strain.h"
 #include "solid3d/run_solid.h"
 

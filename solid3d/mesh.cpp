@@ -10,6 +10,12 @@ Vector3 Mesh::reference(int node) const {
   return {p.x(), p.y(), s[node / points_per_layer()]};
 }
 
+HexMesh Mesh::hexahedra() const {
+  HexMesh mesh{{}, cells};
+  for (int n = 0; n < nodes(); ++n) mesh.nodes.push_back(reference(n));
+  return mesh;
+}
+
 double Mesh::cell_width() const {
   return std::sqrt(section.area() / static_cast<double>(section.quads.size()));
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mechanics/types.h"
+#include "solid3d/hex.h"
 
 namespace bight::solid3d {
 
@@ -34,6 +35,8 @@ struct Mesh {
   int node(int layer, int point) const { return layer * points_per_layer() + point; }
   /// Reference position of a node [D].
   Vector3 reference(int node) const;
+  /// Nodes and cells alone.
+  HexMesh hexahedra() const;
   /// Mean width of a section cell, sqrt(area / cells) [D].
   double cell_width() const;
 };

@@ -7,15 +7,18 @@
 
 #include "mechanics/path.h"
 #include "mechanics/types.h"
+#include "solid3d/material/parameters.h"
 #include "solid3d/mesh.h"
 
 namespace bight::solid3d {
 
 /// Everything the solid fidelity needs, in units of D and E (mechanics/types.h).
 struct SolidParameters {
-  double bulk_to_shear = 1000;  ///< K / mu_s
-  bool finish_turns = true;     ///< finish end free to turn about the pulling axis
-  bool symmetry = true;         ///< of a start with a two-fold axis, simulate one half
+  MaterialParameters material;
+  std::string element = "three-field";  ///< a name in the list of elements.h
+  double hourglass_factor = 1;          ///< of the stiffness of effects/hourglass.h
+  bool finish_turns = true;             ///< finish end free to turn about the pulling axis
+  bool symmetry = true;                 ///< of a start with a two-fold axis, simulate one half
   bool contact = true;
   double friction = 0;             ///< Coulomb coefficient; 0: no friction effect
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]

@@ -56,20 +56,14 @@ class Stiffness {
 
 }  // namespace
 
-Strain::Strain(const Mesh& mesh, int internal_begin, NeoHookean material, double bulk_modulus,
-               int first_layer)
-    : material_(material),
-      bulk_modulus_(bulk_modulus),
-      internal_begin_(internal_begin),
-      first_cell_(first_layer * static_cast<int>(mesh.section.quads.size())) {
+Strain::Strain(const HexMesh& mesh, int internal_begin, Material material, Quadrature quadrature,
+               int first_cell)
+    : material_(std::move(material)), internal_begin_(internal_begin), first_cell_(first_cell) {
   for (const auto& cell : mesh.cells) {
-    HexNodes X;
     std::array<int, 24> coordinates;
-    for (int a = 0; a < 8; ++a) {
-      X.col(a) = mesh.reference(cell[a]);
+    for (int a = 0; a < 8; ++a)
       for (int c = 0; c < 3; ++c) coordinates[3 * a + c] = 3 * cell[a] + c;
-    }
-    cells_.push_back(hex_reference(X));
+    cells_.push_back(hex_reference(cell_nodes(mesh, cell), quadrature));
     coordinates_.push_back(coordinates);
   }
 }
@@ -83,7 +77,7 @@ HexNodes Strain::nodes(const Vector& x, int cell) const {
 double Strain::volume(const HexNodes& x, const HexReference& cell, HexNodes* gradient) const {
   double v = 0;
   if (gradient) gradient->setZero();
-  for (int q = 0; q < HexReference::points; ++q) {
+  for (int q = 0; q < cell.points; ++q) {
     const Matrix3 F = x * cell.gradient[q].transpose();
     const Matrix3 C = cofactor(F);
     v += cell.weight[q] * F.col(0).dot(C.col(0));
@@ -93,7 +87,14 @@ double Strain::volume(const HexNodes& x, const HexReference& cell, HexNodes* gra
 }
 
 void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slot) const {
-  const int cell = first_cell_ + stencil;
+  std::visit(
+      [&](const auto& material) { element_of(material, x, first_cell_ + stencil, order, slot); },
+      material_);
+}
+
+template <class M>
+void Strain::element_of(const M& material, const Vector& x, int cell, Order order,
+                        ElementSlot& slot) const {
   const HexReference& ref = cells_[cell];
   const HexNodes positions = nodes(x, cell);
   const double theta_1 = x[internal_begin_ + 2 * cell], p = x[internal_begin_ + 2 * cell + 1];
@@ -101,7 +102,7 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
   double energy = 0, v = 0;
   HexNodes g = HexNodes::Zero(), b = HexNodes::Zero();
   Stiffness stiffness;
-  for (int q = 0; q < HexReference::points; ++q) {
+  for (int q = 0; q < ref.points; ++q) {
     const auto& dN = ref.gradient[q];
     const double w = ref.weight[q];
     const Matrix3 F = positions * dN.transpose();
@@ -111,31 +112,33 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
       slot.energy = inadmissible;
       return;
     }
-    energy += w * material_.energy(F, J);
+    energy += w * material.energy(F, J);
     v += w * J;
     if (order < Order::gradient) continue;
     const Matrix3 G = C / J;
-    g.noalias() += w * material_.stress(F, G, J) * dN;
+    g.noalias() += w * material.stress(F, G, J) * dN;
     b.noalias() += w * C * dN;
     if (order < Order::hessian) continue;
     // d(p J F^-T) = p J ((F^-T:dF) F^-T - F^-T dF^T F^-T)
-    Matrix9 A = material_.tangent(F, G, J);
-    const Eigen::Map<const Eigen::Matrix<double, 9, 1>> vec_G(G.data());
+    Matrix9 A = material.tangent(F, G, J);
+    const Eigen::Map<const Vector9> vec_G(G.data());
     A.noalias() += p * J * (vec_G * vec_G.transpose());
-    NeoHookean::add_transposed_product(-p * J, G, A);
+    add_transposed_product(-p * J, G, A);
     A *= w;
     stiffness.add(A, dN);
   }
 
   // Cells far from their dilatation (v != V theta) are on their way to it; the quadratic term
   // makes Pi a measure of progress there and vanishes at the solution.
+  const Volumetric U = material.volumetric(theta_1);
   const double miss = v - ref.volume * (1 + theta_1);
-  slot.energy = energy + 0.5 * ref.volume * bulk_modulus_ * theta_1 * theta_1 + p * miss +
-                0.5 * material_.shear_modulus * miss * miss / ref.volume;
+  slot.energy = energy + ref.volume * U.energy + p * miss +
+                0.5 * material.shear_modulus * miss * miss / ref.volume;
+  if (!std::isfinite(slot.energy)) slot.energy = inadmissible;
   if (order < Order::gradient) return;
-  // Condensed: dtheta = (v + b.du)/V - theta, dp = U'' dtheta + U' - p; for a quadratic U the force
-  // is that of the pressure K (v/V - 1), and the stiffness gains K/V b b^T.
-  const double pressure = bulk_modulus_ * (v / ref.volume - 1);
+  // Condensed: dtheta = (v + b.du)/V - theta, dp = U'' dtheta + U' - p. The force is that of the
+  // pressure U' + U'' (v/V - theta), and the stiffness gains U''/V b b^T.
+  const double pressure = U.slope + U.curvature * miss / ref.volume;
   g += pressure * b;
   Vector24::Map(slot.gradient) = Vector24::Map(g.data());
   if (order < Order::hessian) return;
@@ -143,7 +146,7 @@ void Strain::element(const Vector& x, int stencil, Order order, ElementSlot& slo
   Eigen::Map<Matrix24> H(slot.hessian);
   Matrix24 own;
   stiffness.put(own);
-  H = own + bulk_modulus_ / ref.volume * (vec_b * vec_b.transpose());
+  H = own + U.curvature / ref.volume * (vec_b * vec_b.transpose());
 }
 
 void Strain::recover(const Vector& x, Vector& dx) const {
@@ -153,9 +156,9 @@ void Strain::recover(const Vector& x, Vector& dx) const {
     const double v = volume(nodes(x, cell), cells_[cell], &b);
     const double dv = (b.array() * nodes(dx, cell).array()).sum();
     const int at = internal_begin_ + 2 * cell;
-    const double theta_1 = (v + dv) / cells_[cell].volume - 1;
-    dx[at] = theta_1 - x[at];
-    dx[at + 1] = bulk_modulus_ * theta_1 - x[at + 1];
+    const Volumetric U = volumetric(material_, x[at]);
+    dx[at] = (v + dv) / cells_[cell].volume - 1 - x[at];
+    dx[at + 1] = U.slope + U.curvature * dx[at] - x[at + 1];
   }
 }
 
@@ -163,7 +166,7 @@ void Strain::settle(Vector& x) const {
   for (int cell = 0; cell < cells(); ++cell) {
     const int at = internal_begin_ + 2 * cell;
     x[at] = volume(nodes(x, cell), cells_[cell], nullptr) / cells_[cell].volume - 1;
-    x[at + 1] = bulk_modulus_ * x[at];
+    x[at + 1] = volumetric(material_, x[at]).slope;
   }
 }
 
@@ -173,11 +176,12 @@ Strain::CellStress Strain::stress(const Vector& x, int cell) const {
   const double p = x[internal_begin_ + 2 * cell + 1];
   CellStress result;
   double v = 0;
-  for (int q = 0; q < HexReference::points; ++q) {
+  for (int q = 0; q < ref.points; ++q) {
     const Matrix3 F = positions * ref.gradient[q].transpose();
     const Matrix3 C = cofactor(F);
     const double J = F.col(0).dot(C.col(0));
-    const Matrix3 P = material_.stress(F, C / J, J);
+    const Matrix3 P =
+        std::visit([&](const auto& m) -> Matrix3 { return m.stress(F, C / J, J); }, material_);
     result.cauchy += ref.weight[q] * (P * F.transpose() + p * J * Matrix3::Identity());
     result.least_jacobian = std::min(result.least_jacobian, J);
     v += ref.weight[q] * J;

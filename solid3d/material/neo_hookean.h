@@ -1,27 +1,25 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <cmath>
+#include <string_view>
 
-#include "mechanics/types.h"
+#include "solid3d/material/parameters.h"
+#include "solid3d/material/parts.h"
 
 namespace bight::solid3d {
 
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
-
-/// Isochoric neo-Hookean solid, W = mu/2 (J^(-2/3) I1 - 3), I1 = F : F, J = det F; its volumetric
-/// partner is the quadratic U = K/2 (J - 1)^2 of the element's dilatation.
+/// Near-incompressible neo-Hookean solid, W = mu/2 (J^(-2/3) I1 - 3), I1 = F : F, J = det F, and of
+/// the element's dilatation U = K/2 (theta - 1)^2.
 /// Simo, Taylor and Pister, Comput. Methods Appl. Mech. Eng. 51, 177 (1985). Stresses in E.
 struct NeoHookean {
-  double shear_modulus = 1.0 / 3;  ///< mu_s [E]
+  static constexpr std::string_view name = "neo-hookean";
+  double shear_modulus = 1.0 / 3, bulk_modulus = 1000.0 / 3;  ///< mu, K [E]
 
-  /// mu_s that gives Young's modulus 1 = 9 K mu_s / (3 K + mu_s) at a ratio k = K / mu_s.
-  static NeoHookean with_bulk_ratio(double k) { return {(3 * k + 1) / (9 * k)}; }
+  static NeoHookean from(const MaterialParameters& p) {
+    return {p.shear_modulus(), p.bulk_modulus()};
+  }
 
-  /// J^(-2/3): a cube root is half the price of a power.
-  static double isochoric(double J) {
-    const double root = std::cbrt(J);
-    return 1 / (root * root);
+  Volumetric volumetric(double theta_1) const {
+    return quadratic_volumetric(bulk_modulus, theta_1);
   }
 
   double energy(const Matrix3& F, double J) const {
@@ -38,7 +36,6 @@ struct NeoHookean {
   /// dP = mu J^(-2/3) (dF - 2/3 (F^-T:dF) F - 2/3 (F:dF) F^-T + 2/9 I1 (F^-T:dF) F^-T
   ///                   + I1/3 F^-T dF^T F^-T).
   Matrix9 tangent(const Matrix3& F, const Matrix3& F_inverse_T, double J) const {
-    using Vector9 = Eigen::Matrix<double, 9, 1>;
     const double c = shear_modulus * isochoric(J), I1 = F.squaredNorm();
     const Eigen::Map<const Vector9> f(F.data()), g(F_inverse_T.data());
     Matrix9 A = Matrix9::Identity();
@@ -46,14 +43,6 @@ struct NeoHookean {
     A.noalias() += 2.0 / 9 * I1 * (g * g.transpose());
     add_transposed_product(I1 / 3, F_inverse_T, A);
     return c * A;
-  }
-
-  /// A += factor d(G dF^T G)/dF for G = F^-T: entry (iK, jL) is G_iL G_jK.
-  static void add_transposed_product(double factor, const Matrix3& G, Matrix9& A) {
-    for (int L = 0; L < 3; ++L)
-      for (int j = 0; j < 3; ++j)
-        for (int K = 0; K < 3; ++K)
-          for (int i = 0; i < 3; ++i) A(i + 3 * K, j + 3 * L) += factor * G(i, L) * G(j, K);
   }
 };
 

@@ -95,7 +95,7 @@ TEST_CASE("a bent and stretched rod is swept along its curve at constant volume"
   const int per_layer = mesh.points_per_layer();
   Vector x = Vector::Zero(3 * mesh.nodes() + 2 * static_cast<int>(mesh.cells.size()));
   for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = nodes[n];
-  const solid3d::Strain strain(mesh, 3 * mesh.nodes(), {}, 1.0);
+  const solid3d::Strain strain(mesh.hexahedra(), 3 * mesh.nodes(), {});
   // Away from the ends, which are held flat, and where the spline knows no curvature.
   for (int cell = 0; cell < strain.stencils(); ++cell) {
     const double s = mesh.s[mesh.cells[cell][0] / per_layer];
@@ -133,7 +133,7 @@ TEST_CASE("the swept knot has no inverted cell, and its ends are flat and round"
   for (int cells : {12, 32}) {
     const solid3d::Mesh mesh = swept_mesh({.section_elements = cells}, seed());
     const auto nodes = sweep(mesh, seed());
-    const solid3d::Strain strain(mesh, 3 * mesh.nodes(), {}, 1.0);
+    const solid3d::Strain strain(mesh.hexahedra(), 3 * mesh.nodes(), {});
     Vector x = Vector::Zero(3 * mesh.nodes() + 2 * static_cast<int>(mesh.cells.size()));
     for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = nodes[n];
     double least = 1;

@@ -24,7 +24,7 @@ struct Wound {
 
   Wound() {
     SolidParameters parameters;
-    parameters.bulk_to_shear = 20;
+    parameters.material.bulk_to_shear = 20;
     parameters.sample_spacing = 0.15;
     parameters.friction = 0.4;
     effects = make_effects(mesh, parameters, positions);

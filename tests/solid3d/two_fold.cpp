@@ -70,7 +70,7 @@ TEST_CASE("one half of a symmetric state carries half of every energy") {
   const Helix helix;
   const TwoFold symmetry = *TwoFold::find(helix.mesh, helix.start);
   SolidParameters parameters;
-  parameters.bulk_to_shear = 20;
+  parameters.material.bulk_to_shear = 20;
   // Three samples a patch along the rod, and two: with and without samples on the symmetry plane.
   parameters.sample_spacing = GENERATE(0.09, 0.13);
   const int internal_begin = 3 * helix.mesh.nodes();

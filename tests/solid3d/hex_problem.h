@@ -1,0 +1,161 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include "mechanics/newton.h"
+#include "solid3d/effects/hourglass.h"
+#include "solid3d/effects/strain.h"
+#include "solid3d/elements.h"
+
+namespace bight::test {
+
+/// Dead forces on nodes: energy -f . x.
+class DeadLoad : public Effect {
+ public:
+  explicit DeadLoad(const Vector& forces) : forces_(forces) {
+    for (int c = 0; c < forces.size(); c += 3) coordinates_.push_back({c, c + 1, c + 2});
+  }
+  std::string_view name() const override { return "dead load"; }
+  int stencils() const override { return static_cast<int>(coordinates_.size()); }
+  std::span<const int> coordinates(int node) const override { return coordinates_[node]; }
+  void element(const Vector& x, int node, Order order, ElementSlot& slot) const override {
+    const Vector3 f = forces_.segment<3>(3 * node);
+    slot.energy = -f.dot(x.segment<3>(3 * node));
+    if (order >= Order::gradient) Vector3::Map(slot.gradient) = -f;
+  }
+
+ private:
+  Vector forces_;
+  std::vector<std::array<int, 3>> coordinates_;
+};
+
+/// Equilibrium of a block of any hexahedra with held coordinates and dead loads.
+class HexProblem {
+ public:
+  HexProblem(solid3d::HexMesh mesh, solid3d::Material material, const solid3d::HexElement& element)
+      : mesh_(std::move(mesh)),
+        material_(std::move(material)),
+        element_(element),
+        positions_(3 * static_cast<int>(mesh_.nodes.size())),
+        held_(static_cast<size_t>(positions_) + 2 * mesh_.cells.size(), false),
+        force(Vector::Zero(positions_)),
+        x(Vector::Zero(static_cast<int>(held_.size()))) {
+    for (size_t n = 0; n < mesh_.nodes.size(); ++n)
+      x.segment<3>(3 * static_cast<int>(n)) = mesh_.nodes[n];
+  }
+
+  const solid3d::HexMesh& mesh() const { return mesh_; }
+  int positions() const { return positions_; }
+
+  void hold(int node, int direction) { held_[static_cast<size_t>(3 * node + direction)] = true; }
+  void hold(int node) {
+    for (int c = 0; c < 3; ++c) hold(node, c);
+  }
+  /// Calls `act` with every node whose reference position is there.
+  void each(const std::function<bool(const Vector3&)>& there,
+            const std::function<void(int)>& act) const {
+    for (size_t n = 0; n < mesh_.nodes.size(); ++n)
+      if (there(mesh_.nodes[n])) act(static_cast<int>(n));
+  }
+
+  /// A dead traction on faces (each a cell's four nodes) whose reference nodes are all there.
+  void load(const std::function<bool(const Vector3&)>& there, const Vector3& traction) {
+    static constexpr int faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    for (const auto& cell : mesh_.cells)
+      for (const auto& face : faces) {
+        Vector3 corner[4];
+        bool all = true;
+        for (int a = 0; a < 4; ++a)
+          corner[a] = mesh_.nodes[cell[face[a]]], all = all && there(corner[a]);
+        if (!all) continue;
+        // Of a parallelogram, which every loaded face here is.
+        const double area = (corner[1] - corner[0]).cross(corner[3] - corner[0]).norm();
+        for (const int a : face) force.segment<3>(3 * cell[a]) += area / 4 * traction;
+      }
+  }
+
+  /// To equilibrium from x, with the loads times `part`. Throws where there is none.
+  NewtonResult solve(double part = 1) {
+    EffectList effects = solid_effects();
+    effects.push_back(std::make_unique<DeadLoad>(part * force));
+    std::vector<int> blocks;
+    for (int c = 0; c < positions_; c += 3) blocks.push_back(c);
+    const Unknowns unknowns(blocks, positions_, held_);
+    Assembler assembler(unknowns, effects);
+    SparseCholesky cholesky;
+    System system{assembler, cholesky, Ordering::dissection, {}, 0, 0, {}};
+    system.advance = [&](Vector& state, const Vector& dx) { unknowns.advance(state, dx); };
+    NewtonOptions options;
+    const double mu = std::visit([](const auto& m) { return m.shear_modulus; }, material_);
+    const double size = mesh_.nodes.back().cwiseAbs().maxCoeff();
+    options.largest_move = 0.5 * size;
+    options.force_tolerance = 1e-10 * mu * size * size;
+    options.energy_tolerance = 1e-15 * mu * size * size * size;
+    options.bound.first_rise = 0.1 * mu * size * size * size;
+    options.max_iterations = 200;
+    NewtonResult result = newton(system, x, options);
+    if (!result.ok()) throw std::runtime_error(result.reason);
+    x = result.x;
+    iterations += result.iterations;
+    return result;
+  }
+  /// In `steps` equal parts of the load.
+  NewtonResult solve_in(int steps) {
+    NewtonResult result;
+    for (int i = 1; i <= steps; ++i) result = solve(static_cast<double>(i) / steps);
+    return result;
+  }
+
+  Vector3 position(int node) const { return x.segment<3>(3 * node); }
+  int node_at(const Vector3& X) const {
+    for (size_t n = 0; n < mesh_.nodes.size(); ++n)
+      if ((mesh_.nodes[n] - X).norm() < 1e-9) return static_cast<int>(n);
+    throw std::runtime_error("no node there");
+  }
+  solid3d::Strain strain() const {
+    return solid3d::Strain(mesh_, positions_, material_, element_.quadrature);
+  }
+  EffectList solid_effects() const {
+    EffectList effects;
+    effects.push_back(std::make_unique<solid3d::Strain>(strain()));
+    if (element_.hourglass)
+      effects.push_back(std::make_unique<solid3d::Hourglass>(
+          mesh_, std::visit([](const auto& m) { return m.shear_modulus; }, material_)));
+    return effects;
+  }
+
+ private:
+  solid3d::HexMesh mesh_;
+  solid3d::Material material_;
+  const solid3d::HexElement& element_;
+  int positions_;
+  std::vector<bool> held_;
+
+ public:
+  Vector force;  ///< on nodes, by coordinate
+  Vector x;      ///< the state
+  int iterations = 0;
+};
+
+/// The unit cube cut into n_x n_y n_z cells, each node moved to map(X).
+inline solid3d::HexMesh brick(std::array<int, 3> n,
+                              const std::function<Vector3(const Vector3&)>& map) {
+  solid3d::HexMesh mesh;
+  for (int k = 0; k <= n[2]; ++k)
+    for (int j = 0; j <= n[1]; ++j)
+      for (int i = 0; i <= n[0]; ++i)
+        mesh.nodes.push_back(map({static_cast<double>(i) / n[0], static_cast<double>(j) / n[1],
+                                  static_cast<double>(k) / n[2]}));
+  const auto node = [&](int i, int j, int k) { return (k * (n[1] + 1) + j) * (n[0] + 1) + i; };
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        mesh.cells.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+                              node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                              node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+  return mesh;
+}
+
+}  // namespace bight::test
