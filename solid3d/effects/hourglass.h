@@ -38,7 +38,6 @@ class Hourglass : public Effect {
   void element(const Vector& x, int stencil, Order order, ElementSlot& slot) const override;
 
  private:
-  using Vector8 = Eigen::Matrix<double, 8, 1>;
   using Vector4 = Eigen::Matrix<double, 4, 1>;
   using Matrix9 = Eigen::Matrix<double, 9, 9>;
   struct Cell {

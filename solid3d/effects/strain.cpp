@@ -64,6 +64,7 @@ Strain::Strain(const HexMesh& mesh, int internal_begin, Material material, Quadr
     for (int a = 0; a < 8; ++a)
       for (int c = 0; c < 3; ++c) coordinates[3 * a + c] = 3 * cell[a] + c;
     cells_.push_back(hex_reference(cell_nodes(mesh, cell), quadrature));
+    if (quadrature != Quadrature::gauss) gauss_.push_back(hex_reference(cell_nodes(mesh, cell)));
     coordinates_.push_back(coordinates);
   }
 }
@@ -183,9 +184,12 @@ Strain::CellStress Strain::stress(const Vector& x, int cell) const {
     const Matrix3 P =
         std::visit([&](const auto& m) -> Matrix3 { return m.stress(F, C / J, J); }, material_);
     result.cauchy += ref.weight[q] * (P * F.transpose() + p * J * Matrix3::Identity());
-    result.least_jacobian = std::min(result.least_jacobian, J);
     v += ref.weight[q] * J;
   }
+  const HexReference& whole = gauss_.empty() ? ref : gauss_[cell];
+  for (const auto& gradient : whole.gradient)
+    result.least_jacobian =
+        std::min(result.least_jacobian, (positions * gradient.transpose()).determinant());
   result.jacobian = v / ref.volume;
   result.cauchy /= v;
   return result;

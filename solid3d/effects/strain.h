@@ -37,7 +37,7 @@ class Strain : public Effect {
   /// Cell averages for output: volume ratio v/V and Cauchy stress [E].
   struct CellStress {
     double jacobian = 1;        ///< v / V
-    double least_jacobian = 1;  ///< smallest det F over the points
+    double least_jacobian = 1;  ///< smallest det F over the Gauss points
     Matrix3 cauchy = Matrix3::Zero();
   };
   CellStress stress(const Vector& x, int cell) const;
@@ -56,6 +56,7 @@ class Strain : public Effect {
   Material material_;
   int internal_begin_, first_cell_;
   std::vector<HexReference> cells_;
+  std::vector<HexReference> gauss_;  ///< of cells with another quadrature: where det F is measured
   std::vector<std::array<int, 24>> coordinates_;
 };
 

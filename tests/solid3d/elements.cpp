@@ -128,3 +128,14 @@ TEST_CASE("a cell of every element resists all but rigid motion") {
     CHECK(stiffness[6] > 0.01 / 3);
   }
 }
+
+TEST_CASE("an inverted corner is seen whatever the points of an element") {
+  for (const HexElement& element : hex_elements()) {
+    CAPTURE(element.name);
+    test::HexProblem problem(test::brick({1, 1, 1}, [](const Vector3& u) { return u; }), material,
+                             element);
+    CHECK(problem.strain().stress(problem.x, 0).least_jacobian == Approx(1));
+    problem.x.segment<3>(0) = Vector3(0.9, 0.9, 0.9);
+    CHECK(problem.strain().stress(problem.x, 0).least_jacobian < 0);
+  }
+}
