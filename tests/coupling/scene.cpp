@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "coupling/cases.h"
 #include "coupling/errors.h"
 #include "coupling/expect.h"
 #include "coupling/keys.h"
@@ -204,13 +205,16 @@ TEST_CASE("a path is parted where it first comes by the seed") {
 
 TEST_CASE("every case that comes along is a valid scene without warnings") {
   int cases = 0;
-  for (const auto& file : std::filesystem::directory_iterator(BIGHT_ROOT "/cases")) {
+  for (const auto& file : std::filesystem::recursive_directory_iterator(BIGHT_ROOT "/cases")) {
     if (file.path().extension() != ".toml") continue;
     INFO(file.path());
-    CHECK(read_scene(file.path(), {}).warnings.empty());
-    ++cases;
+    for (const SceneCase& c : read_cases(file.path(), {}, {}, "")) {
+      INFO(c.name);
+      CHECK(c.scene.warnings.empty());
+      ++cases;
+    }
   }
-  CHECK(cases >= 2);
+  CHECK(cases >= 7);
 }
 
 TEST_CASE("gravity, inertia and damping reach the rod in its own units") {
