@@ -12,6 +12,8 @@ namespace {
 
 /// c, and the factor by which it has been found to differ from knot to knot, at most.
 constexpr double calibrated = 1.7, spread = 1.6;
+/// An error of first order says no more than "more" above this.
+constexpr double largest_meant = 0.3;
 /// Slopes are taken over states this near [of ebar, at least one diameter].
 constexpr double window = 0.1;
 
@@ -57,9 +59,11 @@ std::optional<double> reached_at(const std::vector<RodError>& errors, double lev
 std::vector<RodError> rod_errors(const std::vector<StepRow>& rows) {
   const std::vector<StepRow> leg = first_tightening(rows);
   std::vector<RodError> errors;
-  for (const StepRow& row : leg)
+  for (const StepRow& row : leg) {
     if (const auto rate = slope(leg, row.ebar))
       errors.push_back({row.ebar, calibrated * -*rate * row.flattening / row.tension});
+    if (!errors.empty() && errors.back().relative > largest_meant) break;
+  }
   return errors;
 }
 

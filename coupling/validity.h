@@ -24,7 +24,7 @@ struct RodError {
 /// c makes up for what Hertz's long cylinders leave out (short contacts, sections of bent rods). It
 /// was calibrated on one run, the frictionless overhand knot of L0 = 42.17 D with 32 cells a
 /// section between ebar 20 and 15, where it is 1.67 to 1.78; where the error is above 10 % it
-/// falls, to 1.1 at 26 %.
+/// falls, to 1.1 at 26 %. The estimate ends where it passes 30 %.
 std::vector<RodError> rod_errors(const std::vector<StepRow>& rows);
 
 /// The ebar down to which the error stays below `level`, and where it would be if the estimate were

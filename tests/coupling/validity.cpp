@@ -56,6 +56,13 @@ TEST_CASE("a rod may be valid along the whole path, nowhere, or of unknown error
   CHECK(validity_sentence({}, 0.05).starts_with("no estimate"));
 }
 
+TEST_CASE("the estimate ends where it is too large to be one") {
+  const auto errors = rod_errors(rows(0.5, 20, -10, 0.5));
+  REQUIRE(errors.size() > 3);
+  CHECK(errors.back().relative > 0.3);
+  CHECK(errors[errors.size() - 2].relative <= 0.3);
+}
+
 TEST_CASE("loosening and tightening again do not change the verdict on the first tightening") {
   auto list = rows(0.3, 20, 10, 0.5);
   const auto once = rod_errors(list);
