@@ -215,7 +215,8 @@ std::array<int, friction_coordinates> friction_stencil(const Rod& rod, int a, in
   return coordinates;
 }
 
-std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points) {
+std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points,
+                                         bool slopes) {
   struct Pressed {
     int piece;
     const ContactPoint* at;
@@ -236,6 +237,7 @@ std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<Conta
     spot.force += at.force;
     spot.arc_a += (at.s_a - spot.arc_a) * at.force / spot.force;
     spot.arc_b += (at.s_b - spot.arc_b) * at.force / spot.force;
+    if (!slopes) continue;
     add_slope(rod, at.segment_a, at.u_a, -at.stiffness * at.normal, spot.force_slope);
     add_slope(rod, at.segment_b, at.u_b, at.stiffness * at.normal, spot.force_slope);
   }

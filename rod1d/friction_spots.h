@@ -26,7 +26,9 @@ struct RubbingPoint {
 
 /// Sums over pieces of strand a that are a tenth of D long, sorted by arc_a: slip varies little
 /// over that length, and is taken where the mean force acts.
-std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points);
+/// Without slopes, force_slope stays empty.
+std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<ContactPoint>& points,
+                                         bool slopes = true);
 
 /// What slip depends on at one spot: p - q of the centerlines, dy/ds of both strands, and the
 /// angles of both sections.

@@ -276,8 +276,9 @@ StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   row.reaction_mismatch = std::abs(forces.start - forces.finish) / force_scale_;
   if (effects_.contact) {
     std::tie(row.contact_pairs, row.max_penetration) = effects_.contact->touching(result.x);
-    row.flattening = flattening_energy(rubbing_points(rod_, effects_.contact->points(result.x)),
-                                       parameters_.poissons_ratio);
+    row.flattening =
+        flattening_energy(rubbing_points(rod_, effects_.contact->points(result.x), false),
+                          parameters_.poissons_ratio);
     const double aimed = aimed_overlap * parameters_.penetration;
     // Mostly with the tension, which is smooth along the path: the largest overlap is less so, as
     // it depends on where the samples lie, and the extrapolation would feel it.

@@ -19,7 +19,7 @@ RodState seen(const Rod& rod, const Vector& x, const Frames& frames, const Conta
   if (contact) {
     const std::vector<ContactPoint> points = contact->points(x);
     state.contact_force = contact_force(rod, points);
-    for (const RubbingPoint& at : rubbing_points(rod, points))
+    for (const RubbingPoint& at : rubbing_points(rod, points, false))
       state.contacts.push_back({at.arc_a, at.arc_b, at.force});
   }
   state.writhe = writhe(state.nodes);

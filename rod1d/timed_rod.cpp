@@ -123,8 +123,9 @@ StepRow TimedRod::accept(const NewtonResult& result, double ebar) {
   if (effects_.contact) {
     effects_.contact->refresh(result.x);
     std::tie(row.contact_pairs, row.max_penetration) = effects_.contact->touching(result.x);
-    row.flattening = flattening_energy(rubbing_points(rod_, effects_.contact->points(result.x)),
-                                       parameters_.poissons_ratio);
+    row.flattening =
+        flattening_energy(rubbing_points(rod_, effects_.contact->points(result.x), false),
+                          parameters_.poissons_ratio);
   }
   if (parameters_.twist) row.end_turn = result.x[rod_.angle(rod_.segments() - 1)] - tied_turn_;
   row.ebar_unstretched = ebar + polyline_length(nodes_of(rod_, result.x)) - parameters_.length;
