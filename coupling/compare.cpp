@@ -118,9 +118,9 @@ std::string comparison_text(const Comparison& comparison, size_t rows) {
   }
   for (size_t i = 1; i < comparison.names.size() && !shared.empty(); ++i) {
     text += fmt::format("{} stays away from {} by", comparison.names[i], comparison.names[0]);
-    for (const double level : {0.02, 0.05, 0.1}) {
+    for (const double level : parting_levels) {
       const auto parted = parted_at(comparison, i, level);
-      text += fmt::format("{} {:.0f} %{}", level == 0.02 ? "" : ",", 100 * level,
+      text += fmt::format("{} {:.0f} %{}", level == parting_levels[0] ? "" : ",", 100 * level,
                           parted ? fmt::format(" from ebar {:.2f} on", *parted) : " nowhere");
     }
     text += '\n';

@@ -9,6 +9,9 @@
 
 namespace bight::coupling {
 
+/// Relative differences in T whose ebar is told.
+constexpr double parting_levels[] = {0.02, 0.05, 0.1};
+
 /// Several force curves on one ebar axis; where a curve has no value there is none.
 struct Comparison {
   struct Row {

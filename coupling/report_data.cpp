@@ -83,7 +83,7 @@ Json comparison_of(const std::vector<ForceCurve>& curves, double friction) {
     result["rows"].push_back(json);
   }
   for (size_t i = 1; i < comparison.names.size(); ++i)
-    for (const double level : {0.02, 0.05, 0.1})
+    for (const double level : parting_levels)
       result["parted"][comparison.names[i]].push_back(
           {{"level", level}, {"ebar", or_null(parted_at(comparison, i, level))}});
   return result;

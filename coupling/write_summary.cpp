@@ -19,9 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Relative errors in T that are reported.
-constexpr double levels[] = {0.02, 0.05, 0.1};
-
 std::string percent(double level) { return fmt::format("{:.0f} %", 100 * level); }
 
 std::string processor() {
@@ -97,7 +94,7 @@ Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
   }
   const std::vector<RodError> errors = rod_errors(rod.steps);
   result["validity"]["sentence"] = validity_sentence(errors, verdict_level);
-  for (const double level : levels) {
+  for (const double level : parting_levels) {
     Json& down_to = result["validity"]["down_to_ebar"][percent(level)];
     if (const auto valid = valid_down_to(errors, level))
       down_to = {{"ebar", valid->ebar},
@@ -132,7 +129,7 @@ Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
 
 Json comparison_numbers(const Comparison& comparison, const Recorder& recorder) {
   Json result;
-  for (const double level : levels) {
+  for (const double level : parting_levels) {
     const auto parted = parted_at(comparison, 1, level);
     result["parted_from_ebar"][percent(level)] = parted ? Json(*parted) : Json();
   }

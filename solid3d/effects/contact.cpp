@@ -97,6 +97,7 @@ void Contact::find_samples(const Vector& x) {
       }
   }
   searched_at_ = x;
+  way_ = 0;  // all samples are new, and will be projected
 }
 
 void Contact::project(const Vector& x, Sample& sample) const {

@@ -56,7 +56,7 @@ class Contact : public Effect {
     Vector2 facing;      ///< its projection (u, v) on the facing strand
     double gap = 0;      ///< [D]; meaningful when it faces something
     bool faces = false;  ///< a projection exists and the normals oppose each other
-    double seen_at = 0;  ///< the surface's way so far when it was projected last [D]
+    double seen_at = 0;  ///< the surface's way since the search when it was projected last [D]
   };
   const std::vector<Sample>& samples() const { return samples_; }
 
@@ -79,7 +79,7 @@ class Contact : public Effect {
   std::vector<std::array<int, 54>> coordinates_;  ///< by stencil: 9 nodes of the sample, 9 facing
   Vector searched_at_;                            ///< state of the last pair search
   Vector last_;                                   ///< state of the last refresh
-  double way_ = 0;  ///< that the surface has gone at most, summed over refreshes [D]
+  double way_ = 0;  ///< that the surface has gone at most since the last search [D]
 };
 
 }  // namespace bight::solid3d

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "tests/derivatives.h"
 #include "tests/solid3d/shapes.h"
@@ -88,14 +89,20 @@ TEST_CASE("contact is sampled on the whole surface of both strands, half each") 
   CHECK(patches > 20);
 }
 
+/// A little more than a turn whose strands, 0.06 D apart, have both gone half of `closed` [D]
+/// towards each other, so that no new search is due.
+Vector closed_by(const Wound& rod, double closed) {
+  Vector x = rod.state(1.06);
+  for (int n = 0; n < rod.mesh.nodes(); ++n)
+    x[3 * n + 2] += (rod.mesh.reference(n).z() < 0.5 * rod.mesh.s.back() ? 0.5 : -0.5) * closed;
+  return x;
+}
+
 TEST_CASE("samples that were left out as too far touch as soon as any") {
   Wound rod;
   bool touched = false;
   for (double closed = 0; closed < 0.09; closed += 0.01) {
-    // Both strands go half the way, so that no new search is due.
-    Vector x = rod.state(1.06);
-    for (int n = 0; n < rod.mesh.nodes(); ++n)
-      x[3 * n + 2] += (rod.mesh.reference(n).z() < 0.5 * rod.mesh.s.back() ? 0.5 : -0.5) * closed;
+    const Vector x = closed_by(rod, closed);
     rod.effects.contact->refresh(x);
     Wound fresh;
     fresh.effects.contact->refresh(x);
@@ -105,6 +112,16 @@ TEST_CASE("samples that were left out as too far touch as soon as any") {
     touched = touched || fresh.effects.contact->stencils() > 0;
   }
   CHECK(touched);
+}
+
+TEST_CASE("contact finds itself again after a state that is nowhere") {
+  Wound rod;
+  Vector nowhere = closed_by(rod, 0);
+  const ContactSurface& surface = rod.effects.contact->surface();
+  nowhere[surface.coordinate(0, surface.layers() / 2)] = std::numeric_limits<double>::infinity();
+  for (const Vector& x : {closed_by(rod, 0), nowhere, closed_by(rod, 0), closed_by(rod, 0.09)})
+    rod.effects.contact->refresh(x);
+  CHECK(rod.effects.contact->stencils() > 0);
 }
 
 TEST_CASE("the far side of a strand is no overlap") {

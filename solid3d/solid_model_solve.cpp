@@ -1,0 +1,157 @@
+// How equilibrium is found, with contact as stiff as it has to be and friction settled.
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/coupled_newton.h"
+#include "mechanics/knot_type.h"
+#include "solid3d/measure.h"
+#include "solid3d/solid_model.h"
+
+namespace bight::solid3d {
+
+namespace {
+
+/// Tolerances of Newton relative to the end tension.
+constexpr double force_tolerance = 1e-8;
+constexpr double energy_tolerance = 1e-9;
+/// Energy rise that the first iteration may take, relative to T D.
+constexpr double energy_rise = 0.3;
+constexpr double shift_decay = 0.01;  // good guesses need no slow decay
+constexpr int max_iterations = 60;
+/// Contact is stiffened until the overlap is in its bound, at most this often per solve.
+constexpr int max_stiffenings = 6;
+/// Times that a start is tried with contact a tenth as stiff.
+constexpr int softer_starts = 2;
+/// Friction has settled when the end tension changes by less than this part of it.
+constexpr double friction_settled = 5e-4;
+constexpr int max_friction_passes = 10;
+/// Iterations with the last state's friction, which bring contact forces into range, and those with
+/// the whole tangent, at most; and their tolerances relative to the end tension.
+constexpr int few_first = 3, most_coupled = 25;
+constexpr double first_tolerance = 1e-2, coupled_tolerance = 5e-7;
+
+}  // namespace
+
+NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
+  const auto attempt = [&] {
+    return effects_.friction ? solve_with_friction(guess)
+                             : solve_frictionless(best_guess(guess, ebar));
+  };
+  NewtonResult result = attempt();
+  // A tight start overlaps by more than stiff contact can push out at once.
+  for (int i = 0; !result.ok() && relaxing_ && effects_.contact && i < softer_starts; ++i) {
+    effects_.contact->law().stiffness *= 0.1;
+    const NewtonResult failed = std::move(result);
+    result = attempt();
+    result.count_on(failed);
+  }
+  if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
+    result.status = NewtonStatus::rejected;
+    result.reason = "a strand has passed through another";
+  }
+  return result;
+}
+
+NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
+  NewtonResult result = newton(system_, guess, options(), observer_);
+  for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
+    if (!stiffen_contact()) break;
+    result = go_on(std::move(result));
+  }
+  return result;
+}
+
+void SolidModel::freeze(const Vector& x) {
+  effects_.contact->refresh(x);
+  frozen_at_ = x;
+  effects_.friction->freeze(x, newest());
+}
+
+/// Newton steps with the whole tangent, after a few with the last state's friction: the contact
+/// forces of a guess are too rough to begin with.
+NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
+  struct Following final : FollowingForces {
+    explicit Following(SolidModel& model) : model(model) {}
+    void freeze(const Vector& x) override { model.freeze(x); }
+    void add_change(const Vector& dx, Vector& gradient) const override {
+      model.effects_.friction->add_change(model.frozen_at_, dx, gradient);
+    }
+    SolidModel& model;
+  } following(*this);
+  NewtonOptions rough = options(), whole = options();
+  rough.max_iterations = few_first;
+  rough.energy_tolerance = rough.force_tolerance = first_tolerance * tension_;
+  whole.max_iterations = most_coupled;
+  whole.force_tolerance = whole.energy_tolerance = coupled_tolerance * tension_;
+  freeze(newest());
+  const NewtonResult begun = newton(system_, guess, rough, observer_);
+  NewtonResult result = coupled_newton(system_, following, begun.x, whole);
+  result.count_on(begun);
+  for (int i = 0; result.ok() && i < max_stiffenings && stiffen_contact(); ++i) {
+    const NewtonResult before = std::move(result);
+    result = coupled_newton(system_, following, before.x, whole);
+    result.count_on(before);
+  }
+  return result;
+}
+
+NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
+  NewtonResult result = solve_rubbing(guess);
+  if (result.ok()) return result;
+  const NewtonResult tried = std::move(result);
+  result = solve_with_friction_frozen(guess);
+  result.count_on(tried);
+  return result;
+}
+
+NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
+  NewtonResult result;
+  result.x = newest();
+  double tension = 0;
+  for (int pass = 0; pass < max_friction_passes; ++pass) {
+    freeze(result.x);
+    if (pass == 0) {
+      result = newton(system_, guess, options(), observer_);
+    } else {
+      stiffen_contact();
+      result = go_on(std::move(result));
+    }
+    if (!result.ok()) return result;
+    const double last = tension;
+    tension = grip_.tension(mesh_, result.x, result.gradient).finish;
+    if (pass > 0 && std::abs(tension - last) < friction_settled * std::abs(tension) &&
+        effects_.contact->max_penetration() <= parameters_.penetration)
+      return result;
+  }
+  result.status = NewtonStatus::too_many_iterations;
+  result.reason = "friction does not settle";
+  return result;
+}
+
+NewtonOptions SolidModel::options() const {
+  NewtonOptions options;
+  options.max_iterations = max_iterations;
+  options.force_tolerance = force_tolerance * tension_;
+  options.energy_tolerance = energy_tolerance * tension_;
+  options.largest_move = parameters_.largest_move;
+  options.shift_decay = shift_decay;
+  options.bound.first_rise = energy_rise * tension_;
+  return options;
+}
+
+bool SolidModel::stiffen_contact() {
+  const double overlap = effects_.contact->max_penetration();
+  if (overlap <= parameters_.penetration) return false;
+  effects_.contact->law().stiffness *=
+      std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
+  return true;
+}
+
+NewtonResult SolidModel::go_on(NewtonResult solved) {
+  NewtonResult result = newton(system_, std::move(solved.x), options(), observer_);
+  result.count_on(solved);
+  return result;
+}
+
+}  // namespace bight::solid3d
