@@ -19,16 +19,27 @@ void quadratic(double t, std::array<double, 3>& w, std::array<double, 3>& dw,
 
 }  // namespace
 
-ContactSurface::ContactSurface(const Mesh& mesh)
-    : sides_(static_cast<int>(mesh.section.rim.size())), layers_(mesh.layers()), s_(mesh.s) {
-  for (int k = 0; k < layers_; ++k)
-    for (int point : mesh.section.rim) first_.push_back(3 * mesh.node(k, point));
-  // Mean radius of the spline of a regular polygon of radius R: between 3/4 + 1/4 cos(2 pi/n) at
-  // the nodes and cos^2(pi/n) .. half-way; both agree to 0.3 % of D at 8 sides.
-  const double R = mesh.section.points[mesh.section.rim[0]].norm();
-  const double at_node = 0.75 + 0.25 * std::cos(2 * std::numbers::pi / sides_);
-  const double between = std::cos(std::numbers::pi / sides_);
-  skin_ = 0.5 - R * (2 * at_node + between) / 3;
+ContactSurface::ContactSurface(std::span<const Mesh> strands) {
+  for (const Mesh& mesh : strands) {
+    const int sides = static_cast<int>(mesh.section.rim.size());
+    // Mean radius of the spline of a regular polygon of radius R: between 3/4 + 1/4 cos(2 pi/n) at
+    // the nodes and cos^2(pi/n) .. half-way; both agree to 0.3 % of D at 8 sides.
+    const double R = mesh.section.points[mesh.section.rim[0]].norm();
+    const double at_node = 0.75 + 0.25 * std::cos(2 * std::numbers::pi / sides);
+    const double between = std::cos(std::numbers::pi / sides);
+    const double skin = 0.5 * mesh.section.diameter - R * (2 * at_node + between) / 3;
+    const int first = layers();
+    for (int k = 0; k < mesh.layers(); ++k) {
+      strand_of_.push_back(static_cast<int>(strands_.size()));
+      first_patch_.push_back(patches());
+      s_.push_back(mesh.s[k]);
+      for (int point : mesh.section.rim) {
+        along_.push_back(first + k);
+        first_.push_back(3 * mesh.node(k, point));
+      }
+    }
+    strands_.push_back({sides, first, layers() - 1, mesh.section.diameter, skin});
+  }
 }
 
 double ContactSurface::area(int patch) const {
@@ -38,13 +49,14 @@ double ContactSurface::area(int patch) const {
 
 Vector2 ContactSurface::extent(int patch) const {
   const int k = along(patch);
-  return {std::numbers::pi / sides_, 0.5 * (s_[k + 1] - s_[k - 1])};
+  return {std::numbers::pi * strand(k).diameter / strand(k).sides, 0.5 * (s_[k + 1] - s_[k - 1])};
 }
 
 PatchWeights ContactSurface::weights(double u, double v) const {
   PatchWeights w;
   w.around = static_cast<int>(std::lround(u));
-  w.along = std::clamp(static_cast<int>(std::lround(v)), 1, layers_ - 2);
+  const int layer = std::clamp(static_cast<int>(std::lround(v)), 0, layers() - 1);
+  w.along = std::clamp(layer, strand(layer).first + 1, strand(layer).last - 1);
   quadratic(u - w.around, w.u, w.du, w.ddu);
   quadratic(v - w.along, w.v, w.dv, w.ddv);
   return w;
@@ -76,7 +88,8 @@ std::optional<Vector2> ContactSurface::project(const Vector& x, const Vector3& p
                                                Vector2 uv) const {
   constexpr int max_iterations = 30;
   constexpr double settled = 1e-11;  // of a parameter, in patches
-  const double v_min = 0.5, v_max = layers_ - 1.5;
+  const Strand& on = strand(static_cast<int>(std::lround(uv.y())));
+  const double v_min = on.first + 0.5, v_max = on.last - 0.5;
   double last = std::numeric_limits<double>::max();
   for (int i = 0; i < max_iterations; ++i) {
     const SurfacePoint p = evaluate(x, weights(uv.x(), uv.y()));

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mechanics/types.h"
@@ -21,33 +24,45 @@ struct PatchWeights {
   std::array<double, 3> u, du, ddu, v, dv, ddv;
 };
 
-/// The skin of a swept rod as a C1 surface: the rim nodes are control points of a biquadratic
-/// B-spline, periodic around the rod. Facets ripple by 0.4 to 1 % of D and make frictionless
+/// The skins of swept strands as C1 surfaces: the rim nodes are control points of a biquadratic
+/// B-spline, periodic around the strand. Facets ripple by 0.4 to 1 % of D and make frictionless
 /// surfaces feel rough; this surface is smooth, with closed-form derivatives and a 3 x 3 stencil.
 ///
 /// Every rim node (a, k) owns the patch u in [a - 1/2, a + 1/2], v in [k - 1/2, k + 1/2]. The
-/// spline of a round section lies inside its control points; `skin` is what is missing to D/2.
+/// spline of a round section lies inside its control points; `skin` is what is missing to its
+/// radius. Layers, and so v, are numbered through all strands.
 class ContactSurface {
  public:
-  explicit ContactSurface(const Mesh& mesh);
+  explicit ContactSurface(std::span<const Mesh> strands);
+  explicit ContactSurface(const Mesh& mesh) : ContactSurface(std::span(&mesh, 1)) {}
 
-  int sides() const { return sides_; }
-  int layers() const { return layers_; }
-  int patches() const { return sides_ * layers_; }
-  int around(int patch) const { return patch % sides_; }
-  int along(int patch) const { return patch / sides_; }
+  int layers() const { return static_cast<int>(s_.size()); }
+  int sides(int along = 0) const { return strand(along).sides; }
+  int patches() const { return static_cast<int>(along_.size()); }
+  int around(int patch) const { return patch - first_patch_[along_[patch]]; }
+  int along(int patch) const { return along_[patch]; }
   int patch(int around, int along) const {
-    return along * sides_ + (around % sides_ + sides_) % sides_;
+    const int sides = strand(along).sides;
+    return first_patch_[along] + (around % sides + sides) % sides;
   }
-  /// The first and the last layer carry no patch of their own.
-  bool has_patch(int along) const { return along > 0 && along < layers_ - 1; }
+  /// The first and the last layer of a strand carry no patch of their own.
+  bool has_patch(int along) const {
+    return along > strand(along).first && along < strand(along).last;
+  }
+  /// Number of the strand that a layer belongs to.
+  int strand_of(int along) const { return strand_of_[along]; }
 
   /// First coordinate of the rim node (a, k); a is periodic.
   int coordinate(int around, int along) const { return first_[patch(around, along)]; }
   int node(int patch) const { return first_[patch] / 3; }
 
   double arc_length(int along) const { return s_[along]; }
-  double skin() const { return skin_; }
+  /// Between two layers along their strand; infinite between strands [D].
+  double apart(int along, int other) const {
+    return strand_of_[along] == strand_of_[other] ? std::abs(s_[along] - s_[other])
+                                                  : std::numeric_limits<double>::infinity();
+  }
+  double skin(int along = 0) const { return strand(along).skin; }
   /// Reference area of a patch, of the true cylinder [D^2].
   double area(int patch) const;
   /// Extent of a patch around and along the rod [D].
@@ -57,14 +72,20 @@ class ContactSurface {
   SurfacePoint evaluate(const Vector& x, const PatchWeights& weights) const;
 
   /// Parameters of the surface point nearest to `point`, by Newton's method from `start`; nothing
-  /// when the search leaves the surface or does not settle.
+  /// when the search leaves the strand or does not settle.
   std::optional<Vector2> project(const Vector& x, const Vector3& point, Vector2 start) const;
 
  private:
-  int sides_, layers_;
-  double skin_;
-  std::vector<int> first_;
-  std::vector<double> s_;
+  struct Strand {
+    int sides, first, last;  ///< first and last layer
+    double diameter, skin;
+  };
+  const Strand& strand(int along) const { return strands_[strand_of_[along]]; }
+
+  std::vector<Strand> strands_;
+  std::vector<int> strand_of_, first_patch_;  ///< by layer
+  std::vector<double> s_;                     ///< by layer
+  std::vector<int> along_, first_;            ///< by patch
 };
 
 }  // namespace bight::solid3d

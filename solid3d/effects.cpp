@@ -15,28 +15,25 @@ T* add(EffectList& list, bool asked_for, Arguments&&... arguments) {
   return raw;
 }
 
-/// Width of the rounded onset of contact [D]: a fraction of the overlap at moderate load.
-constexpr double contact_onset = 0.005;
-
 }  // namespace
 
-SolidEffects make_effects(const Mesh& mesh, const SolidParameters& p, int internal_begin,
-                          int first_layer) {
-  const HexMesh hexahedra = mesh.hexahedra();
+SolidEffects make_effects(std::span<const Mesh> strands, const SolidParameters& p,
+                          int internal_begin, int first_layer) {
+  const HexMesh mesh = hexahedra(strands);
   const HexElement& element = hex_element(p.element);
-  const int first_cell = first_layer * static_cast<int>(mesh.section.quads.size());
+  const int first_cell = first_layer * static_cast<int>(strands[0].section.quads.size());
   Contact::Options contact;
   contact.sample_spacing = p.sample_spacing;
   contact.largest_move = p.largest_move;
   contact.first_layer = first_layer;
 
   SolidEffects effects;
-  effects.strain = add<Strain>(effects.list, true, hexahedra, internal_begin,
-                               make_material(p.material), element.quadrature, first_cell);
-  add<Hourglass>(effects.list, element.hourglass, hexahedra, p.material.shear_modulus(),
+  effects.strain = add<Strain>(effects.list, true, mesh, internal_begin, make_material(p.material),
+                               element.quadrature, first_cell);
+  add<Hourglass>(effects.list, element.hourglass, mesh, p.material.shear_modulus(),
                  p.hourglass_factor, first_cell);
-  effects.contact = add<Contact>(effects.list, p.contact, mesh,
-                                 ContactLaw{p.contact_stiffness, contact_onset}, contact);
+  effects.contact = add<Contact>(effects.list, p.contact, strands,
+                                 ContactLaw{p.contact_stiffness, p.contact_onset}, contact);
   if (effects.contact)
     effects.friction = add<Friction>(effects.list, p.friction > 0, *effects.contact, p.friction);
   return effects;

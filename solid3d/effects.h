@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "mechanics/assemble.h"
 #include "solid3d/effects/contact.h"
 #include "solid3d/effects/friction.h"
@@ -18,8 +20,12 @@ struct SolidEffects {
   Friction* friction = nullptr;  ///< in the list; null without friction
 };
 
-/// `first_layer`: energy only of the rod beyond it, where the rest is its image.
-SolidEffects make_effects(const Mesh& mesh, const SolidParameters& parameters, int internal_begin,
-                          int first_layer = 0);
+/// `first_layer`: energy only of the rod beyond it, where the rest is its image (one strand).
+SolidEffects make_effects(std::span<const Mesh> strands, const SolidParameters& parameters,
+                          int internal_begin, int first_layer = 0);
+inline SolidEffects make_effects(const Mesh& mesh, const SolidParameters& parameters,
+                                 int internal_begin, int first_layer = 0) {
+  return make_effects(std::span(&mesh, 1), parameters, internal_begin, first_layer);
+}
 
 }  // namespace bight::solid3d

@@ -1,27 +1,33 @@
 #include "solid3d/mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace bight::solid3d {
 
 Vector3 Mesh::reference(int node) const {
-  const Vector2& p = section.points[node % points_per_layer()];
-  return {p.x(), p.y(), s[node / points_per_layer()]};
+  const int own = node - first_node;
+  const Vector2& p = section.points[own % points_per_layer()];
+  return {p.x(), p.y(), s[own / points_per_layer()]};
 }
 
-HexMesh Mesh::hexahedra() const {
-  HexMesh mesh{{}, cells};
-  for (int n = 0; n < nodes(); ++n) mesh.nodes.push_back(reference(n));
-  return mesh;
+HexMesh hexahedra(std::span<const Mesh> strands) {
+  HexMesh all;
+  for (const Mesh& mesh : strands) {
+    assert(mesh.first_node == static_cast<int>(all.nodes.size()));
+    for (int n = 0; n < mesh.nodes(); ++n) all.nodes.push_back(mesh.reference(mesh.first_node + n));
+    all.cells.insert(all.cells.end(), mesh.cells.begin(), mesh.cells.end());
+  }
+  return all;
 }
 
 double Mesh::cell_width() const {
   return std::sqrt(section.area() / static_cast<double>(section.quads.size()));
 }
 
-Mesh make_mesh(const Section& section, const std::vector<double>& layers) {
-  Mesh mesh{section, layers, {}};
+Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node) {
+  Mesh mesh{section, layers, {}, first_node};
   for (int k = 0; k + 1 < mesh.layers(); ++k)
     for (const auto& q : section.quads)
       mesh.cells.push_back({mesh.node(k, q[0]), mesh.node(k, q[1]), mesh.node(k, q[2]),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "mechanics/types.h"
@@ -8,13 +9,14 @@
 
 namespace bight::solid3d {
 
-/// A disc of diameter 1 cut into quadrilaterals (O-grid: a square core and rings around it).
-/// Scaled so that the second moment of the polygon is pi/64, that of the disc.
+/// A disc cut into quadrilaterals (O-grid: a square core and rings around it). Scaled so that the
+/// second moment of the polygon is pi d^4/64, that of the disc.
 struct Section {
   std::vector<Vector2> points;            ///< [D]
   std::vector<std::array<int, 4>> quads;  ///< counter-clockwise
   std::vector<int> rim;                   ///< boundary points, counter-clockwise, equally spaced
   std::vector<int> centre;                ///< points whose mean is the centre: one, or four
+  double diameter = 1;                    ///< d [D]
   double area() const;                    ///< of the polygon [D^2]
   double second_moment() const;           ///< of the polygon about x [D^4]
 };
@@ -22,26 +24,34 @@ struct Section {
 /// About `cells` quadrilaterals: m x m core and r <= m/2 rings of 4 m (12, 21, 32, 60, 108 fit
 /// exactly).
 Section make_section(int cells);
+/// The same of another diameter [D]: a drum beside a rod.
+Section scaled(Section section, double diameter);
+
+struct Mesh;
+/// Nodes and cells of strands, each numbered behind the one before.
+HexMesh hexahedra(std::span<const Mesh> strands);
 
 /// A rod swept from a section: layer k holds the section's points at arc length s[k].
-/// Node number = layer * section.points.size() + point. The reference rod lies straight along z.
+/// Node number = first_node + layer * section.points.size() + point. The reference rod lies
+/// straight along z.
 struct Mesh {
   Section section;
   std::vector<double> s;                  ///< undeformed arc length of the layers [D], 0 ... L0/D
   std::vector<std::array<int, 8>> cells;  ///< VTK hexahedron order
+  int first_node = 0;                     ///< behind those of other strands
   int layers() const { return static_cast<int>(s.size()); }
   int points_per_layer() const { return static_cast<int>(section.points.size()); }
   int nodes() const { return layers() * points_per_layer(); }
-  int node(int layer, int point) const { return layer * points_per_layer() + point; }
+  int node(int layer, int point) const { return first_node + layer * points_per_layer() + point; }
   /// Reference position of a node [D].
   Vector3 reference(int node) const;
   /// Nodes and cells alone.
-  HexMesh hexahedra() const;
+  HexMesh hexahedra() const { return bight::solid3d::hexahedra({this, 1}); }
   /// Mean width of a section cell, sqrt(area / cells) [D].
   double cell_width() const;
 };
 
-Mesh make_mesh(const Section& section, const std::vector<double>& layers);
+Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node = 0);
 
 /// Arc lengths of layers: spacing `fine` between knot_begin and knot_end, growing geometrically to
 /// `coarse` in the tails. All in D; the last entry is exactly `length`.

@@ -22,6 +22,8 @@ struct SolidParameters {
   bool contact = true;
   double friction = 0;             ///< Coulomb coefficient; 0: no friction effect
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
+  double contact_onset = 0.005;    ///< width of the rounded onset of contact [D]: a fraction of
+                                   ///< the overlap at moderate load
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]

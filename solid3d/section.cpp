@@ -109,4 +109,10 @@ Section make_section(int cells) {
   return section;
 }
 
+Section scaled(Section section, double diameter) {
+  for (Vector2& p : section.points) p *= diameter / section.diameter;
+  section.diameter = diameter;
+  return section;
+}
+
 }  // namespace bight::solid3d

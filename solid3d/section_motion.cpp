@@ -47,7 +47,12 @@ std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x) {
   return places;
 }
 
-void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx) {
+/// Coordinates of all strands together; what is behind them is no position.
+Eigen::Index positions(std::span<const Mesh> strands) {
+  return 3 * static_cast<Eigen::Index>(strands.back().first_node + strands.back().nodes());
+}
+
+void advance_strand(const Mesh& mesh, Vector& x, const Vector& dx) {
   const int per_layer = mesh.points_per_layer();
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < mesh.layers(); ++k) {
@@ -71,8 +76,12 @@ void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx) {
       nodes.col(p) = centre + shift + R * (r + strain);
     }
   }
-  const Eigen::Index behind = 3 * static_cast<Eigen::Index>(mesh.nodes());
-  x.tail(x.size() - behind) += dx.tail(x.size() - behind);
+}
+
+void advance_sections(std::span<const Mesh> strands, Vector& x, const Vector& dx) {
+  for (const Mesh& mesh : strands) advance_strand(mesh, x, dx);
+  const Eigen::Index behind = x.size() - positions(strands);
+  x.tail(behind) += dx.tail(behind);
 }
 
 /// Rates of a section's motion in its own frame, per unit of ebar.
@@ -85,7 +94,9 @@ Screw screw(const SectionPlace& from, const SectionPlace& to, double de) {
           from.rotation.transpose() * (to.centre - from.centre) / de};
 }
 
-Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states, double ebar) {
+/// Moves a strand of x, its newest state, on to `ebar`.
+void extrapolate_strand(const Mesh& mesh, const std::vector<Station>& states, double ebar,
+                        Vector& x) {
   const Station &now = states.back(), &before = states[states.size() - 2];
   const double de = ebar - now.ebar, last = now.ebar - before.ebar;
   const auto places = section_places(mesh, now.x), old = section_places(mesh, before.x);
@@ -98,7 +109,6 @@ Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states
     // Rates belong to the middles of the steps: linear extrapolation to the middle of the next.
     blend = (de + last) / (last + first);
   }
-  Vector x = now.x;
   for (int k = 0; k < mesh.layers(); ++k) {
     Screw rate = screw(old[k], places[k], last);
     if (!oldest.empty()) {
@@ -114,8 +124,16 @@ Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states
       node = (places[k].centre + shift + turn * (node - places[k].centre)).eval();
     }
   }
-  const Eigen::Index behind = x.size() - 3 * static_cast<Eigen::Index>(mesh.nodes());
-  x.tail(behind) += de / last * (now.x.tail(behind) - before.x.tail(behind));
+}
+
+Vector extrapolate_sections(std::span<const Mesh> strands, const std::vector<Station>& states,
+                            double ebar) {
+  const Station &now = states.back(), &before = states[states.size() - 2];
+  Vector x = now.x;
+  for (const Mesh& mesh : strands) extrapolate_strand(mesh, states, ebar, x);
+  const Eigen::Index behind = x.size() - positions(strands);
+  x.tail(behind) +=
+      (ebar - now.ebar) / (now.ebar - before.ebar) * (now.x.tail(behind) - before.x.tail(behind));
   return x;
 }
 

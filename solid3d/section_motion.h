@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mechanics/types.h"
@@ -18,7 +19,10 @@ std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x);
 
 /// x + dx, where each section's mean rotation in dx is taken through the exponential map: a linear
 /// update inflates a section that turns by theta by theta^2/2, which incompressibility punishes.
-void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx);
+void advance_sections(std::span<const Mesh> strands, Vector& x, const Vector& dx);
+inline void advance_sections(const Mesh& mesh, Vector& x, const Vector& dx) {
+  advance_sections(std::span(&mesh, 1), x, dx);
+}
 
 /// A state and the ebar it belongs to.
 struct Station {
@@ -29,6 +33,11 @@ struct Station {
 /// Guess for `ebar` from the last two or three accepted states (newest last): every section goes on
 /// along its own screw, at the rate that the last steps had, extrapolated. (In Cartesian
 /// coordinates the same extrapolation is worse than none.)
-Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states, double ebar);
+Vector extrapolate_sections(std::span<const Mesh> strands, const std::vector<Station>& states,
+                            double ebar);
+inline Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states,
+                                   double ebar) {
+  return extrapolate_sections(std::span(&mesh, 1), states, ebar);
+}
 
 }  // namespace bight::solid3d

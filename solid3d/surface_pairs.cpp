@@ -4,7 +4,6 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace bight::solid3d {
 
@@ -31,9 +30,7 @@ std::vector<std::vector<int>> near_patches(const ContactSurface& surface, const 
   std::vector<std::vector<int>> near(static_cast<size_t>(surface.patches()));
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
     const int p = a.info(), q = b.info();
-    if (std::abs(surface.arc_length(surface.along(p)) - surface.arc_length(surface.along(q))) <
-        exclusion)
-      return;
+    if (surface.apart(surface.along(p), surface.along(q)) < exclusion) return;
     near[p].push_back(q);
     near[q].push_back(p);
   });

@@ -7,7 +7,8 @@
 namespace bight::solid3d {
 
 /// For every patch, the patches of other stretches of the surface whose boxes come within `reach`
-/// [D]. Patches closer than `exclusion` [D] along the undeformed rod are neighbours, not contacts.
+/// [D]. Patches closer than `exclusion` [D] along an undeformed strand are neighbours, not
+/// contacts.
 std::vector<std::vector<int>> near_patches(const ContactSurface& surface, const Vector& x,
                                            double reach, double exclusion);
 

@@ -31,8 +31,8 @@ std::array<int, 9> patch_coordinates(const ContactSurface& surface, int around, 
 
 }  // namespace
 
-Contact::Contact(const Mesh& mesh, ContactLaw law, Options options)
-    : surface_(mesh), law_(law), options_(options) {}
+Contact::Contact(std::span<const Mesh> strands, ContactLaw law, Options options)
+    : surface_(strands), law_(law), options_(options) {}
 
 PatchWeights Contact::own_weights(const Sample& sample) const {
   return surface_.weights(surface_.around(sample.patch) + sample.local.x(),
@@ -107,12 +107,12 @@ void Contact::project(const Vector& x, Sample& sample) const {
   sample.faces = false;
   sample.seen_at = way_;
   if (!uv) return;
-  const SurfacePoint there = surface_.evaluate(x, surface_.weights(uv->x(), uv->y()));
-  const double apart = std::abs(surface_.arc_length(w.along) -
-                                surface_.arc_length(static_cast<int>(std::lround(uv->y()))));
+  const PatchWeights facing = surface_.weights(uv->x(), uv->y());
+  const SurfacePoint there = surface_.evaluate(x, facing);
+  const double apart = surface_.apart(w.along, static_cast<int>(std::lround(uv->y())));
   if (here.normal.dot(there.normal) > opposing || apart < 0.5 * options_.exclusion) return;
   sample.facing = *uv;
-  sample.gap = there.normal.dot(here.y - there.y) - 2 * surface_.skin();
+  sample.gap = there.normal.dot(here.y - there.y) - skins(sample, facing.along);
   // Deeper than a quarter of D is the far side of the strand, not an overlap.
   sample.faces = sample.gap > -0.25;
 }
@@ -167,7 +167,7 @@ void Contact::element(const Vector& x, int stencil, Order order, ElementSlot& sl
   const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
   const SurfacePoint p = surface_.evaluate(x, facing);
   const double distance = p.normal.dot(surface_.evaluate(x, own).y - p.y);
-  const double gap = distance - 2 * surface_.skin();
+  const double gap = distance - skins(sample, facing.along);
   slot.energy = sample.weight * law_.energy(gap);
   if (order == Order::energy) return;
 

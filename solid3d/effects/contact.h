@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "mechanics/contact_law.h"
@@ -9,10 +10,11 @@
 
 namespace bight::solid3d {
 
-/// Frictionless self-contact, surface to surface by quadrature: sample points of every patch are
-/// projected on the facing strand, and each adds half its area times the energy of its gap,
+/// Frictionless contact of strands with each other and themselves, surface to surface by
+/// quadrature: sample points of every patch are projected on the facing strand, and each adds half
+/// its area times the energy of its gap,
 ///
-///   E = sum_samples (A/2) phi(g),   g = n . (x_sample - y(u, v)) - 2 skin,
+///   E = sum_samples (A/2) phi(g),   g = n . (x_sample - y(u, v)) - skin - skin of the facing one,
 ///
 /// with (u, v) the projection: y_u . d = y_v . d = 0. Both strands are sampled (two half-weighted
 /// passes). Gradient and Hessian of g include the motion of the projection, so this is a true
@@ -26,7 +28,7 @@ class Contact : public Effect {
     double largest_move = 0.15;    ///< of a node in one Newton iteration [D]
     int first_layer = 0;           ///< only the surface beyond this layer is sampled
   };
-  Contact(const Mesh& mesh, ContactLaw law, Options options);
+  Contact(std::span<const Mesh> strands, ContactLaw law, Options options);
 
   std::string_view name() const override { return "contact"; }
   int stencils() const override { return static_cast<int>(touching_.size()); }
@@ -65,6 +67,9 @@ class Contact : public Effect {
   std::array<int, 54> stencil(const Sample& sample) const;
 
  private:
+  double skins(const Sample& sample, int facing_layer) const {
+    return surface_.skin(surface_.along(sample.patch)) + surface_.skin(facing_layer);
+  }
   void find_samples(const Vector& x);
   void project(const Vector& x, Sample& sample) const;
   double least_gap(const Sample& sample) const;

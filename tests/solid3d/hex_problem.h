@@ -5,30 +5,11 @@
 
 #include "mechanics/newton.h"
 #include "solid3d/effects/hourglass.h"
+#include "solid3d/effects/load.h"
 #include "solid3d/effects/strain.h"
 #include "solid3d/elements.h"
 
 namespace bight::test {
-
-/// Dead forces on nodes: energy -f . x.
-class DeadLoad : public Effect {
- public:
-  explicit DeadLoad(const Vector& forces) : forces_(forces) {
-    for (int c = 0; c < forces.size(); c += 3) coordinates_.push_back({c, c + 1, c + 2});
-  }
-  std::string_view name() const override { return "dead load"; }
-  int stencils() const override { return static_cast<int>(coordinates_.size()); }
-  std::span<const int> coordinates(int node) const override { return coordinates_[node]; }
-  void element(const Vector& x, int node, Order order, ElementSlot& slot) const override {
-    const Vector3 f = forces_.segment<3>(3 * node);
-    slot.energy = -f.dot(x.segment<3>(3 * node));
-    if (order >= Order::gradient) Vector3::Map(slot.gradient) = -f;
-  }
-
- private:
-  Vector forces_;
-  std::vector<std::array<int, 3>> coordinates_;
-};
 
 /// Equilibrium of a block of any hexahedra with held coordinates and dead loads.
 class HexProblem {
@@ -79,7 +60,10 @@ class HexProblem {
   /// To equilibrium from x, with the loads times `part`. Throws where there is none.
   NewtonResult solve(double part = 1) {
     EffectList effects = solid_effects();
-    effects.push_back(std::make_unique<DeadLoad>(part * force));
+    auto load = std::make_unique<solid3d::Load>();
+    for (int c = 0; c < positions_; c += 3)
+      if (!force.segment<3>(c).isZero(0)) load->set(c / 3, part * force.segment<3>(c));
+    effects.push_back(std::move(load));
     std::vector<int> blocks;
     for (int c = 0; c < positions_; c += 3) blocks.push_back(c);
     const Unknowns unknowns(blocks, positions_, held_);
