@@ -154,7 +154,7 @@ const std::vector<Key>& all_keys() {
       {"solid3d.tail_ratio", number, "", {0.1, 20}, {}, "3", "",
        "Length over width of a cell in the straight tails", Fineness::size},
       {"solid3d.contact_stiffness", number, "", {0.1, 1e5}, {}, "60", "",
-       "First contact penalty per area, in E/D", Fineness::count},
+       "First contact penalty per area, in E/D; a start with T < 0.006 E D^2 takes less in proportion", Fineness::count},
       {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
        "Largest overlap allowed, in D; the penalty is stiffened until it is met", Fineness::size},
       {"solid3d.symmetry", boolean, "", {}, {}, "true", "",

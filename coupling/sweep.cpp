@@ -69,7 +69,11 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
   const solid3d::Section section = solid3d::make_section(options.section_elements);
   const double width = std::sqrt(section.area() / static_cast<double>(section.quads.size()));
   // The knot: where the rod is bent or touched. Tails are nearly straight.
-  constexpr double bent = 0.02;  // kappa D
+  // kappa D, or a part of the largest: what a loose knot's tails lack in length is in their
+  // bending.
+  constexpr double most_bent = 0.02, part = 0.1;
+  const double bent =
+      std::min(most_bent, part * *std::max_element(rod.curvature.begin(), rod.curvature.end()));
   double begin = rod.s.back(), end = 0;
   for (size_t i = 0; i < rod.s.size(); ++i)
     if (rod.curvature[i] > bent) {

@@ -21,7 +21,7 @@ struct SolidParameters {
   bool symmetry = true;                 ///< of a start with a two-fold axis, simulate one half
   bool contact = true;
   double friction = 0;             ///< Coulomb coefficient; 0: no friction effect
-  double contact_stiffness = 60;   ///< first normal penalty per area [E/D]
+  double contact_stiffness = 60;   ///< first normal penalty per area [E/D], less of a loose start
   double contact_onset = 0.005;    ///< width of the rounded onset of contact [D]: a fraction of
                                    ///< the overlap at moderate load
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met

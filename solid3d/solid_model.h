@@ -76,6 +76,8 @@ class SolidModel final : public PathModel {
                         const SolidParameters& parameters, bool symmetric);
 
   NewtonOptions options() const;
+  double round_off() const;
+  double energy(const Vector& x);
 
   /// Where strands overlap more than they may; false where they do not.
   bool stiffen_contact();
@@ -108,7 +110,8 @@ class SolidModel final : public PathModel {
   System system_;
   double tension_;
   int determinant_ = 0;
-  bool relaxing_ = true;  ///< the start is not yet in equilibrium
+  bool relaxing_ = true;        ///< the start is not yet in equilibrium
+  double start_energy_ = 0;     ///< while relaxing
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;
   Vector frozen_at_;              ///< where friction's spots were taken from

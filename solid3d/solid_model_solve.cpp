@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
@@ -17,6 +18,9 @@ constexpr double force_tolerance = 1e-8;
 constexpr double energy_tolerance = 1e-9;
 /// Energy rise that the first iteration may take, relative to T D.
 constexpr double energy_rise = 0.3;
+/// The same of a start, relative to its energy: the cells of the sweep are not yet true to volume,
+/// and making them so costs energy that the potential of the cells' pressures has not seen.
+constexpr double start_rise = 0.1;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
@@ -35,6 +39,7 @@ constexpr double first_tolerance = 1e-2, coupled_tolerance = 5e-7;
 
 NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
   const auto attempt = [&] {
+    start_energy_ = relaxing_ ? energy(guess) : 0;
     return effects_.friction ? solve_with_friction(guess)
                              : solve_frictionless(best_guess(guess, ebar));
   };
@@ -132,12 +137,21 @@ NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
 NewtonOptions SolidModel::options() const {
   NewtonOptions options;
   options.max_iterations = max_iterations;
-  options.force_tolerance = force_tolerance * tension_;
+  options.force_tolerance = std::max(force_tolerance * tension_, round_off());
   options.energy_tolerance = energy_tolerance * tension_;
   options.largest_move = parameters_.largest_move;
   options.shift_decay = shift_decay;
-  options.bound.first_rise = energy_rise * tension_;
+  options.bound.first_rise = energy_rise * tension_ + start_rise * start_energy_;
   return options;
+}
+
+/// Least out-of-balance force that can be told from zero [E D^2]: strains are differences of
+/// positions as far as L0 from the origin, and K turns them into forces on a node.
+double SolidModel::round_off() const {
+  const double eps = std::numeric_limits<double>::epsilon();
+  const double width =
+      std::sqrt(mesh_.section.area() / static_cast<double>(mesh_.section.quads.size()));
+  return 5 * eps * parameters_.material.bulk_modulus() * mesh_.s.back() * width;
 }
 
 bool SolidModel::stiffen_contact() {

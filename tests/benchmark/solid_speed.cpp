@@ -1,7 +1,7 @@
 // What the solid costs: seconds, steps, iterations and factorisations of tight overhand knots
 // (L0 = 42.17 D, seeded by the rod). `solid_speed` runs the short cases, `solid_speed NAME ...`
 // those, `solid_speed try SECTION FROM TO STEP [mu=0.32] [knot=figure-eight] [whole]
-// [penetration=0.002] [ratio=0.8] [iterations]` a path of one's own, step by step.
+// [penetration=0.002] [ratio=0.8] [length=42.17] [iterations]` a path of one's own, step by step.
 
 #include <algorithm>
 #include <chrono>
@@ -27,6 +27,7 @@ struct Case {
   double friction = 0;
   std::string knot = "overhand";
   double axial_ratio = 0.8;
+  double length = 350 / 8.3;  // [D]
   solid3d::SolidParameters solid = {};
   bool each_step = false, each_iteration = false;
 };
@@ -49,7 +50,7 @@ double normalised(double tension) { return tension * 16 / std::numbers::pi; }
 
 rod1d::RodState seed(const Case& c) {
   rod1d::RodParameters p;
-  p.length = 350 / 8.3;
+  p.length = c.length;
   p.knot = c.knot;
   p.from_straight = c.knot != "overhand";
   p.friction = c.friction;
@@ -134,6 +135,8 @@ Case own_case(const std::vector<std::string>& words) {
       c.friction = std::stod(value());
     else if (word.starts_with("knot="))
       c.knot = value();
+    else if (word.starts_with("length="))
+      c.length = std::stod(value());
     else if (word.starts_with("penetration="))
       c.solid.penetration = std::stod(value());
     else if (word.starts_with("stiffness="))
