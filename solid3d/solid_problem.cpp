@@ -21,6 +21,10 @@ constexpr int max_iterations = 60, most_rubbing = 25;
 /// tolerance.
 constexpr int few_first = 3;
 constexpr double first_tolerance = 1e-2;
+/// Minimisations with frozen friction, at most; their tolerance; and the change of the reactions
+/// that ends them.
+constexpr int max_passes = 8;
+constexpr double frozen_tolerance = 1e-5, friction_near = 0.02;
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
 constexpr size_t kept_states = 3;       ///< for the predictor
@@ -247,6 +251,34 @@ NewtonResult SolidProblem::solve_rubbing(const Vector& guess) {
   const NewtonResult begun = newton(solver_->system, guess, rough, observer_);
   NewtonResult result = coupled_newton(solver_->system, following, begun.x, whole);
   result.count_on(begun);
+  if (result.ok()) return result;
+  // From a poor guess: minimise with frozen friction until it is near, then once more.
+  NewtonResult near = solve_frozen(guess);
+  near.count_on(result);
+  if (!near.ok()) return near;
+  result = coupled_newton(solver_->system, following, near.x, whole);
+  result.count_on(near);
+  return result;
+}
+
+/// Minimises at frozen normal forces, facing points and tangents, which are then taken from the
+/// solution, until the supports feel little of it.
+NewtonResult SolidProblem::solve_frozen(const Vector& guess) {
+  NewtonResult result;
+  Vector reactions;
+  for (int pass = 0; pass < max_passes; ++pass) {
+    freeze(pass == 0 ? state() : result.x);
+    const NewtonResult before = result;
+    result = newton(solver_->system, pass == 0 ? guess : before.x,
+                    options(frozen_tolerance, frozen_tolerance), observer_);
+    result.count_on(before);
+    if (!result.ok()) return result;
+    Vector now = Vector::Zero(positions_);
+    for (int c = 0; c < positions_; ++c)
+      if (held_[static_cast<size_t>(c)]) now[c] = result.gradient[c];
+    if (pass > 0 && (now - reactions).norm() < friction_near * now.norm()) break;
+    reactions = std::move(now);
+  }
   return result;
 }
 

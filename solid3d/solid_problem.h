@@ -113,6 +113,7 @@ class SolidProblem final : private PathModel {
 
   NewtonResult minimise(const Vector& guess);
   NewtonResult solve_rubbing(const Vector& guess);
+  NewtonResult solve_frozen(const Vector& guess);
   NewtonOptions options(double force_tolerance, double energy_tolerance) const;
   bool stiffen_contact();
   void freeze(const Vector& x);
