@@ -158,7 +158,7 @@ const std::vector<Key>& all_keys() {
       {"solid3d.penetration", number, "", {1e-5, 0.1}, {}, "0.01", "",
        "Largest overlap allowed, in D; the penalty is stiffened until it is met", Fineness::size},
       {"solid3d.symmetry", boolean, "", {}, {}, "true", "",
-       "Of a knot with a two-fold axis, simulate one half; the other is its image", Fineness::choice},
+       "Of a knot with a two-fold axis or an inversion, simulate one half; the other is its image", Fineness::choice},
       {"solid3d.sample_spacing", number, "", {0.005, 0.5}, {}, "0.05", "",
        "Distance of contact samples on the surface, in D", Fineness::size},
 

@@ -26,7 +26,7 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
       parameters_(parameters),
       symmetry_(parameters.symmetry ? TwoFold::find(mesh, start) : std::nullopt),
       from_frame_(frame(mesh, start, symmetry_)),
-      grip_(make_grip(mesh, start, parameters, symmetry_.has_value())),
+      grip_(make_grip(mesh, start, parameters, symmetry_)),
       internal_begin_(grip_.coordinates(mesh)),
       effects_(make_effects(mesh, parameters, internal_begin_,
                             symmetry_ ? symmetry_->first_layer() : 0)),
@@ -196,10 +196,12 @@ Eigen::Isometry3d SolidModel::frame(const Mesh& mesh, const std::vector<Vector3>
 }
 
 Grip SolidModel::make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
-                           const SolidParameters& parameters, bool symmetric) {
+                           const SolidParameters& parameters,
+                           const std::optional<TwoFold>& symmetry) {
   constexpr double off_axis = 0.3;  // of a section that can be pinned [D]
   Grip grip{parameters.finish_turns, false, {}};
-  if (symmetric) {
+  if (symmetry) {
+    if (symmetry->kind() == TwoFold::Kind::inversion) return {false, false, {}};
     grip.start_turns = parameters.finish_turns;
     return grip;
   }

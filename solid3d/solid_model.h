@@ -73,7 +73,7 @@ class SolidModel final : public PathModel {
   /// along z and across its radius, and a point of its x axis sideways. A choice of place and
   /// angles among equals; what the pin along z carries is seen as a difference of the end tensions.
   static Grip make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
-                        const SolidParameters& parameters, bool symmetric);
+                        const SolidParameters& parameters, const std::optional<TwoFold>& symmetry);
 
   NewtonOptions options() const;
   double round_off() const;

@@ -9,14 +9,12 @@ namespace {
 
 constexpr double off_axis = 0.05;  ///< least radius of the middle section that names an axis [D]
 
-/// Index of the point that mirrors `p` in the section's x axis, -1 for none.
-int mirrored(const std::vector<Vector2>& points, const Vector2& p) {
+/// Index of the section's point at `p`, -1 for none.
+int point_at(const std::vector<Vector2>& points, const Vector2& p) {
   for (size_t i = 0; i < points.size(); ++i)
-    if ((points[i] - Vector2(p.x(), -p.y())).norm() < 1e-9) return static_cast<int>(i);
+    if ((points[i] - p).norm() < 1e-9) return static_cast<int>(i);
   return -1;
 }
-
-Vector3 half_turn(const Vector3& r) { return {r.x(), -r.y(), -r.z()}; }
 
 }  // namespace
 
@@ -29,51 +27,54 @@ std::optional<TwoFold> TwoFold::find(const Mesh& mesh, const std::vector<Vector3
       mean += start[mesh.node(layer, p)] / mesh.points_per_layer();
     return mean;
   };
-  const Vector3 first = centre(0), last = centre(mesh.layers() - 1);
-  TwoFold symmetry;
-  symmetry.first_layer_ = mesh.layers() / 2;
-  symmetry.origin_ = 0.5 * (first + last);
-  const Vector3 radius = centre(symmetry.first_layer_) - symmetry.origin_;
-  if (radius.head<2>().norm() < off_axis) return std::nullopt;
-  symmetry.angle_ = std::atan2(radius.y(), radius.x());
+  const Vector3 origin = 0.5 * (centre(0) + centre(mesh.layers() - 1));
+  const Vector3 radius = centre(mesh.layers() / 2) - origin;
+  const bool names_axis = radius.head<2>().norm() > off_axis;
+  const double angle = names_axis ? std::atan2(radius.y(), radius.x()) : 0;
+  TwoFold symmetry(names_axis ? Kind::half_turn : Kind::inversion, mesh, origin, angle);
+  if (!symmetry.fits(mesh, start, tolerance)) return std::nullopt;
+  return symmetry;
+}
 
+/// Half a turn about x turns a section over, across its own x axis; inversion turns it by half a
+/// turn, for the tangent stays.
+bool TwoFold::fits(const Mesh& mesh, const std::vector<Vector3>& start, double tolerance) {
   std::vector<int> section;
   for (const Vector2& p : mesh.section.points) {
-    section.push_back(mirrored(mesh.section.points, p));
-    if (section.back() < 0) return std::nullopt;
+    const Vector2 image = kind_ == Kind::half_turn ? Vector2(p.x(), -p.y()) : Vector2(-p);
+    section.push_back(point_at(mesh.section.points, image));
+    if (section.back() < 0) return false;
   }
   for (int n = 0; n < mesh.nodes(); ++n) {
     const int layer = n / mesh.points_per_layer(), point = n % mesh.points_per_layer();
-    symmetry.image_.push_back(mesh.node(mesh.layers() - 1 - layer, section[point]));
+    image_.push_back(mesh.node(mesh.layers() - 1 - layer, section[point]));
   }
-  const Matrix3 back = Eigen::AngleAxisd(-symmetry.angle_, Vector3::UnitZ()).toRotationMatrix();
-  const auto in_frame = [&](int node) { return Vector3(back * (start[node] - symmetry.origin_)); };
+  const Matrix3 back = Eigen::AngleAxisd(-angle_, Vector3::UnitZ()).toRotationMatrix();
+  const auto in_frame = [&](int node) { return Vector3(back * (start[node] - origin_)); };
   for (int n = 0; n < mesh.nodes(); ++n)
-    if (!((half_turn(in_frame(n)) - in_frame(symmetry.image_[n])).norm() < tolerance))
-      return std::nullopt;
-  return symmetry;
+    if (!((signs().cwiseProduct(in_frame(n)) - in_frame(image_[n])).norm() < tolerance))
+      return false;
+  return true;
 }
 
 void TwoFold::constrain(const Mesh& mesh, std::vector<Image>& images,
                         std::vector<bool>& held) const {
-  for (int n = mesh.points_per_layer(); n < mesh.node(first_layer_ + 1, 0); ++n) {
-    if (image(n) > n) {
-      images[3 * n] = {3 * image(n), 1};
-      images[3 * n + 1] = {3 * image(n) + 1, -1};
-      images[3 * n + 2] = {3 * image(n) + 2, -1};
-    } else if (image(n) == n) {
-      held[3 * n + 1] = held[3 * n + 2] = true;
+  for (int n = mesh.points_per_layer(); n < mesh.node(first_layer_ + 1, 0); ++n)
+    for (int c = 0; c < 3; ++c) {
+      if (image(n) > n) images[3 * n + c] = {3 * image(n) + c, signs()[c]};
+      if (image(n) == n && signs()[c] < 0) held[3 * n + c] = true;
     }
-  }
 }
 
 void TwoFold::impose(const Mesh& mesh, Vector& x) const {
   for (int n = 0; n < mesh.node(first_layer_ + 1, 0); ++n) {
-    const Vector3 other = half_turn(x.segment<3>(3 * image(n)));
-    if (image(n) > n)
-      x.segment<3>(3 * n) = other;
-    else if (image(n) == n)
-      x.segment<3>(3 * n) = Vector3(other.x(), 0, 0);
+    if (image(n) < n) continue;
+    const Vector3 other = signs().cwiseProduct(x.segment<3>(3 * image(n)));
+    for (int c = 0; c < 3; ++c)
+      if (image(n) > n)
+        x[3 * n + c] = other[c];
+      else if (signs()[c] < 0)
+        x[3 * n + c] = 0;
   }
 }
 

@@ -87,10 +87,55 @@ TEST_CASE("one half of a symmetric state carries half of every energy") {
   }
 }
 
-TEST_CASE("a straight rod names no axis") {
+TEST_CASE("a wave is its own image by inversion, and so is whatever the unknowns of one half do") {
+  const Mesh mesh = test::straight_mesh(GENERATE(12, 21), 13.3, 1.0);
+  REQUIRE(mesh.layers() % 2 == 1);
+  std::vector<Vector3> start;
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 X = mesh.reference(n) - Vector3(0, 0, 6.65);
+    start.push_back(X + Vector3(0.9 * std::sin(X.z()), 0.4 * std::sin(2 * X.z()), 0));
+  }
+  const auto symmetry = TwoFold::find(mesh, start);
+  REQUIRE(symmetry);
+  CHECK(symmetry->kind() == TwoFold::Kind::inversion);
+
+  const Grip grip{false, false, {}};
+  const int internal_begin = grip.coordinates(mesh);
+  Vector x = Vector::Zero(internal_begin + 2 * static_cast<int>(mesh.cells.size()));
+  for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = start[n];
+  SolidParameters parameters;
+  const auto whole = make_effects(mesh, parameters, internal_begin);
+  const auto half = make_effects(mesh, parameters, internal_begin, symmetry->first_layer());
+  const Vector zero = Vector::Zero(x.size());
+  const double energy = test::evaluate(*whole.strain, x, zero).energy;
+  REQUIRE(energy > 0);
+  CHECK(2 * test::evaluate(*half.strain, x, zero).energy == Approx(energy).epsilon(1e-9));
+
+  const Unknowns unknowns = grip.unknowns(mesh, static_cast<int>(x.size()), &*symmetry);
+  CHECK(unknowns.size() < 0.51 * 3 * mesh.nodes());
+  const Vector step = test::shaken(Vector::Zero(unknowns.size()), unknowns.size(), 0.01);
+  Vector moved = x;
+  unknowns.advance(moved, unknowns.expand(x, step));
+  CHECK((moved - x).cwiseAbs().maxCoeff() > 1e-2);
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 p = moved.segment<3>(3 * n), q = moved.segment<3>(3 * symmetry->image(n));
+    CHECK((p + q).norm() < 1e-10);
+  }
+  Vector imposed = moved;
+  symmetry->impose(mesh, imposed);
+  CHECK((imposed - moved).cwiseAbs().maxCoeff() < 1e-10);
+
+  start[5].x() += 1e-4;
+  CHECK(!TwoFold::find(mesh, start));
+}
+
+TEST_CASE("a rod in a plane that is neither turned nor inverted into itself has no symmetry") {
   const Mesh mesh = test::straight_mesh(12, 13.3, 1.0);
   std::vector<Vector3> start;
-  for (int n = 0; n < mesh.nodes(); ++n) start.push_back(mesh.reference(n));
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 X = mesh.reference(n) - Vector3(0, 0, 6.65);
+    start.push_back(X + Vector3(0.1 * X.z() * X.z() * X.z(), 0.1 * std::sin(3 * X.z() + 1), 0));
+  }
   CHECK(!TwoFold::find(mesh, start));
 }
 
