@@ -84,15 +84,31 @@ void capstan(int cells) {
   }
 }
 
+void patch(int cells) {
+  const int around = 9 * cells / 5;
+  const test::PatchErrors error = test::patch(cells, around);
+  std::printf("in a bore of %d cells: pressure %.3f %%, forces on nodes %.3f %% and %.3f %%\n",
+              around, 100 * error.pressure, 100 * error.rod_forces, 100 * error.bore_forces);
+}
+
+void rails(int) {
+  for (const double mu : {0.49, 0.50})
+    std::printf("mu %.2f on a slope of 0.495: %s\n", mu,
+                test::OnRails(mu).holds(0.495) ? "holds" : "slips");
+  test::OnRails rod(0.5);
+  for (int i = 0; i < 3; ++i) std::printf("mu 0.5, pulled: %.4f\n", rod.drag(0.03));
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   const std::map<std::string, void (*)(int)> cases = {
-      {"crossed", crossed},       {"parallel", parallel}, {"clasp", clasp},
-      {"orthogonal", orthogonal}, {"turned", turned},     {"capstan", capstan}};
+      {"crossed", crossed}, {"parallel", parallel}, {"clasp", clasp}, {"orthogonal", orthogonal},
+      {"turned", turned},   {"capstan", capstan},   {"patch", patch}, {"rails", rails}};
   const auto found = count > 2 ? cases.find(words[1]) : cases.end();
   if (found == cases.end()) {
-    std::printf("solid_contact crossed|parallel|clasp|orthogonal|turned|capstan CELLS ...\n");
+    std::printf(
+        "solid_contact crossed|parallel|clasp|orthogonal|turned|capstan|patch|rails CELLS ...\n");
     return 2;
   }
   for (int i = 2; i < count; ++i) {

@@ -98,3 +98,22 @@ TEST_CASE("a rod over a drum holds as much as its friction and thickness say", "
   CHECK(capstan.problem->effects().friction->sliding_share(capstan.problem->state()) > 0.99);
   CHECK(capstan.ratio() == Approx(std::exp(capstan.growth() * M_PI)).epsilon(0.01));
 }
+
+TEST_CASE("a rod on two rails slips on a slope above mu and holds on one below") {
+  CHECK(test::OnRails(0.5).holds(0.495));
+  CHECK_FALSE(test::OnRails(0.49).holds(0.495));
+}
+
+TEST_CASE("a rod that is pulled over two rails drags by mu") {
+  CHECK(test::OnRails(0.5).drag(0.1) == Approx(0.5).epsilon(3e-3));
+}
+
+TEST_CASE("round surfaces whose meshes do not match press on each other evenly") {
+  const test::PatchErrors coarse = test::patch(12, 32), fine = test::patch(32, 60);
+  CHECK(coarse.pressure < 0.1);
+  CHECK(coarse.rod_forces < 1e-3);
+  CHECK(coarse.bore_forces < 0.04);
+  CHECK(fine.pressure < 7e-3);
+  CHECK(fine.rod_forces < 1e-3);
+  CHECK(fine.bore_forces < 1e-3);
+}

@@ -325,4 +325,111 @@ struct Capstan {
   std::vector<int> hung, pulled;
 };
 
+/// A rod that lies across two rigid rails and may slide along its axis, under a dead weight.
+struct OnRails {
+  explicit OnRails(double mu) {
+    constexpr double length = 3, overlap = 1e-3;
+    SolidParameters parameters;
+    parameters.friction = mu;
+    parameters.expected_tension = weight;
+    const solid3d::Section section = solid3d::make_section(12);
+    const auto layers = [](double along) {
+      return solid3d::graded_layers(along, 0.2, 0.2, 0, along);
+    };
+    const auto rail = [](double x) {
+      return
+          [=](const Vector3& X) -> Vector3 { return along_y(1, -0.5)(X) + x * Vector3::UnitX(); };
+    };
+    problem = std::make_unique<SolidProblem>(
+        std::vector<SolidProblem::Strand>{{section, layers(length), along_x(length, 0.5 - overlap)},
+                                          {section, layers(1), rail(-0.8)},
+                                          {section, layers(1), rail(0.8)}},
+        parameters);
+    const auto everywhere = [](const Vector3&) { return true; };
+    for (const int strand : {1, 2}) problem->hold(problem->nodes(strand, everywhere));
+    rod = problem->nodes(0, everywhere);
+    end = problem->section(0, 0);
+    // Neither aside nor rolling.
+    problem->hold(end, 1);
+    problem->hold(problem->section(0, problem->strands()[0].layers() - 1), 1);
+    problem->load(rod, {0, 0, -weight});
+    const PathOutcome outcome = problem->go(1, 1);
+    if (outcome.status != PathStatus::finished) throw std::runtime_error(outcome.reason);
+  }
+  /// Whether it stays when the weight is as on a slope along its axis.
+  bool holds(double slope) {
+    problem->load(rod, {slope * weight, 0, -weight});
+    return problem->go(problem->time() + 1, 1).status == PathStatus::finished;
+  }
+  /// Force along its axis over that on the rails, when an end is pulled by that distance [D].
+  double drag(double distance) {
+    problem->move(end, solid3d::RigidMotion{.shift = {1, 0, 0}});
+    const PathOutcome outcome = problem->go(problem->time() + distance, 0.25 * distance);
+    if (outcome.status != PathStatus::finished) throw std::runtime_error(outcome.reason);
+    const Vector3 pull = problem->reaction(end);
+    return pull.x() / (weight - pull.z());
+  }
+  static constexpr double weight = 5e-4;
+  std::unique_ptr<SolidProblem> problem;
+  std::vector<int> rod, end;
+};
+
+/// Patch test of round surfaces: a rod in a bore, concentric and overlapping by 0.02 D, with sides
+/// and layers that do not match. (The bore is the skin of a strand turned inside out by a mirror;
+/// only its surface has a meaning.) The pressure should be the same everywhere, and so should be
+/// the forces on all nodes around: the largest differences over the mean, in the middle.
+struct PatchErrors {
+  double pressure, rod_forces, bore_forces;
+};
+inline PatchErrors patch(int rod_cells, int bore_cells) {
+  constexpr double overlap = 0.02, length = 2;
+  const solid3d::Section section = solid3d::make_section(rod_cells);
+  const auto layers = [](double spacing) {
+    return solid3d::graded_layers(length, spacing, spacing, 0, length);
+  };
+  // Inside out, the skin of the bore lies on the other side of its spline.
+  solid3d::Section around = solid3d::make_section(bore_cells);
+  const double skin = solid3d::ContactSurface(solid3d::make_mesh(around, layers(0.2))).skin();
+  around = solid3d::scaled(around, (1 - 2 * overlap) / (1 - 4 * skin));
+  std::vector<solid3d::Mesh> strands{solid3d::make_mesh(section, layers(0.1))};
+  strands.push_back(solid3d::make_mesh(around, layers(0.13), strands[0].nodes()));
+  solid3d::Contact::Options options;
+  options.sample_spacing = 0.02;
+  solid3d::Contact contact(strands, {1, 1e-4}, options);
+
+  const int nodes = strands[0].nodes() + strands[1].nodes();
+  Vector x(3 * nodes), forces = Vector::Zero(3 * nodes);
+  for (const solid3d::Mesh& mesh : strands)
+    for (int n = mesh.first_node; n < mesh.first_node + mesh.nodes(); ++n) {
+      x.segment<3>(3 * n) = mesh.reference(n);
+      if (mesh.first_node > 0) x[3 * n] *= -1;
+    }
+  contact.refresh(x);
+  for (int i = 0; i < contact.stencils(); ++i) {
+    Eigen::Matrix<double, 54, 1> gradient = Eigen::Matrix<double, 54, 1>::Zero();
+    ElementSlot slot{0, gradient.data(), nullptr};
+    contact.element(x, i, Order::gradient, slot);
+    const auto at = contact.coordinates(i);
+    for (int c = 0; c < 54; ++c) forces[at[c]] += gradient[c];
+  }
+
+  struct Spread {
+    double least = 1e300, most = 0;
+    void add(double value) { least = std::min(least, value), most = std::max(most, value); }
+    double relative() const { return 2 * (most - least) / (most + least); }
+  } pressure, on[2];
+  for (const auto& sample : contact.samples()) {
+    const double z = contact.surface().arc_length(contact.surface().along(sample.patch));
+    if (sample.faces && std::abs(z - 0.5 * length) < 0.25 * length) pressure.add(-sample.gap);
+  }
+  for (const int strand : {0, 1}) {
+    const solid3d::Mesh& mesh = strands[strand];
+    for (int k = 0; k < mesh.layers(); ++k)
+      for (const int p : mesh.section.rim)
+        if (std::abs(mesh.s[k] - 0.5 * length) < 0.25 * length)
+          on[strand].add(forces.segment<3>(3 * mesh.node(k, p)).norm());
+  }
+  return {pressure.relative(), on[0].relative(), on[1].relative()};
+}
+
 }  // namespace bight::test
