@@ -59,13 +59,13 @@ void write_job_list(const fs::path& file, const std::vector<Words>& jobs) {
   write_whole(file, text);
 }
 
-// One task of the array is one run on one core.
+// One task of the array is one run on one core. Slurm takes no array without tasks.
 void write_slurm_array(const fs::path& file, const Study& plan, const std::vector<Words>& jobs) {
   std::string text = fmt::format(
       "#!/bin/bash\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task=1\n"
       "# Then call `bight study` again: it collects what the tasks left in\n# {}\n"
       "export OMP_WAIT_POLICY=passive\ncase $SLURM_ARRAY_TASK_ID in\n",
-      plan.name, jobs.size(), plan.folder.string());
+      shell_line({plan.name}), jobs.size(), plan.folder.string());
   for (size_t i = 0; i < jobs.size(); ++i)
     text += fmt::format("{}) exec {} ;;\n", i + 1, shell_line(jobs[i]));
   write_whole(file, text + "esac\n");
@@ -113,13 +113,16 @@ ExitStatus study(const Study& plan, const StudyOptions& options) {
   std::vector<Words> jobs;
   for (const size_t point : points) jobs.push_back(command(plan, options.program, point));
   if (!options.jobs.empty()) write_job_list(options.jobs, jobs);
-  if (!options.slurm.empty()) write_slurm_array(options.slurm, plan, jobs);
+  if (!options.slurm.empty() && !jobs.empty()) write_slurm_array(options.slurm, plan, jobs);
   const auto say = [&](const std::string& text) {
     if (!options.quiet) fmt::print("{}", text), std::fflush(stdout);
   };
   say(fmt::format("{} runs, {} of them done\n", plan.points.size(),
                   plan.points.size() - points.size()));
-  if (!options.jobs.empty() || !options.slurm.empty()) return done;
+  if (!options.jobs.empty() || !options.slurm.empty()) {
+    if (jobs.empty()) say("nothing is left to run: call it without --jobs and --slurm to collect\n");
+    return done;
+  }
 
   make_folder(plan.folder / "runs");
   std::vector<std::string> trouble(plan.points.size());

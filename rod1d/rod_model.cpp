@@ -171,6 +171,10 @@ void RodModel::set_tied() {
 
 NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   before_ = history_;
+  // Behind a fold there is no equilibrium near: the knot snaps, at an ebar that hardly changes,
+  // and Newton goes downhill, in moves too short for strands to pass each other, to where it rests.
+  const bool snaps = !rubs_ && std::abs(ebar - accepted_.back().ebar) < fold_step;
+  far_ = tension_ == 0 || snaps;
   Vector x = guess;
   if (follows_) {
     const std::vector<double> arc = next_arc(ebar);

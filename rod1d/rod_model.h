@@ -54,6 +54,8 @@ class RodModel final : public ForceModel {
   struct Equations;
   /// Steps in ebar below this are no steps.
   static constexpr double same_ebar = 1e-9;
+  /// A path of equilibria that not even steps this short can follow has come to a fold.
+  static constexpr double fold_step = 0.01;
   struct Accepted {
     double ebar;
     std::vector<double> arc;  ///< undeformed arc length of the nodes [D]
@@ -120,6 +122,7 @@ class RodModel final : public ForceModel {
   double normal_force_ = 0;          ///< summed over the spots that rub there [E D^2]
   double dissipated_ = 0;            ///< by friction so far [E D^3]
   int last_iterations_ = 0;          ///< of the last solve
+  bool far_ = true;  ///< the equilibrium to be found may be far from the guess
   std::map<std::string, double> energy_by_effect_;
   std::map<std::string, double> seconds_;  ///< of equations that were replaced
   std::chrono::steady_clock::time_point began_;

@@ -14,6 +14,8 @@ namespace bight::rod1d {
 
 namespace {
 
+/// Newton iterations in which an equilibrium is found that is near, and one that is far.
+constexpr int some_iterations = 100, many_iterations = 1000;
 /// Whiles of motion by which a failed solve is helped on, at most.
 constexpr int most_motions = 20;
 /// By which a state that weight would leave is turned first, so that it does [rad].
@@ -32,7 +34,7 @@ constexpr int few_first = 2, many_first = 30, most_coupled = 12;
 
 NewtonResult RodModel::solve_once(const Vector& guess) {
   NewtonOptions options;
-  options.max_iterations = tension_ > 0 ? 100 : 500;
+  options.max_iterations = far_ ? many_iterations : some_iterations;
   options.energy_tolerance = 1e-10 * force_scale_;
   // No better than what the round-off of the places in space does to stretching and bending forces.
   const double shortest = *std::min_element(rod_.rest_length.begin(), rod_.rest_length.end());

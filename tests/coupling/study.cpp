@@ -101,6 +101,8 @@ TEST_CASE("jobs run elsewhere are collected, and one that gave up is a row") {
   REQUIRE(listed.status == 0);
   CHECK_FALSE(fs::exists(folder / "results"));
   CHECK(lines(text_of(folder / "jobs.txt")) == 3);
+  CHECK(text_of(folder / "array.sh").find("--job-name='quick'\n#SBATCH --array=1-3\n") !=
+        std::string::npos);
   const std::string in_folder = "cd '" + folder.path().string() + "' && ";
   REQUIRE(std::system((in_folder + "head -n 1 jobs.txt | sh").c_str()) == 0);
   REQUIRE(std::system((in_folder + "SLURM_ARRAY_TASK_ID=2 bash array.sh").c_str()) == 0);
@@ -111,6 +113,10 @@ TEST_CASE("jobs run elsewhere are collected, and one that gave up is a row") {
       call(folder, "study quick.toml --jobs left.txt").said.starts_with("3 runs, 2 of them done"));
   CHECK(lines(text_of(folder / "left.txt")) == 1);
   REQUIRE(std::system((in_folder + "sh left.txt").c_str()) == 0);
+  const Outcome none = call(folder, "study quick.toml --slurm none.sh");
+  CHECK(none.status == 0);
+  CHECK(none.said.find("nothing is left") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "none.sh"));  // Slurm refuses an array without tasks
   // As if the numerics had given up.
   std::string summary = text_of(folder / (third + "/summary.json"));
   for (size_t at = 0; (at = summary.find("\"finished\"", at)) != std::string::npos;)
