@@ -122,7 +122,7 @@ class RodModel final : public ForceModel {
   double normal_force_ = 0;          ///< summed over the spots that rub there [E D^2]
   double dissipated_ = 0;            ///< by friction so far [E D^3]
   int last_iterations_ = 0;          ///< of the last solve
-  bool far_ = true;  ///< the equilibrium to be found may be far from the guess
+  bool far_ = true;                  ///< the equilibrium to be found may be far from the guess
   std::map<std::string, double> energy_by_effect_;
   std::map<std::string, double> seconds_;  ///< of equations that were replaced
   std::chrono::steady_clock::time_point began_;

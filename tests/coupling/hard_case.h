@@ -115,6 +115,8 @@ inline void say(const std::string& what) {
 /// Completed, the same knot at every recorded state, no inversion, overlap in bound, ends in
 /// balance, energy balance.
 inline void must_hold(const Result& result, const Holds& holds = {}) {
+  INFO(result.summary.value("reason", ""));
+  REQUIRE_FALSE(result.force.rows.empty());
   const bool solid = result.summary.contains("cells");
   const double penetration = result.summary.value("worst_penetration", 0.0);
   const double jacobian = result.summary.value("smallest_jacobian", 1.0);
@@ -130,7 +132,6 @@ inline void must_hold(const Result& result, const Holds& holds = {}) {
       solid ? fmt::format("smallest J {:.2g}, ", jacobian) : "", mismatch,
       holds.balance > 0 ? fmt::format(", energy unexplained {:.2g} %", 100 * left) : "",
       result.seconds()));
-  INFO(result.summary.value("reason", ""));
   CHECK(result.finished());
   for (const auto& state : result.summary["states"])
     CHECK(state["determinant"] == holds.determinant);
