@@ -57,6 +57,32 @@ TEST_CASE("a strand whose ends move as one rigid body follows without strain") {
     CHECK((problem.position(n) - motion(problem.strands()[0].reference(n), 2)).norm() < 1e-6);
 }
 
+TEST_CASE("a rigid motion turns about its centre by the right hand, and shifts") {
+  const RigidMotion motion{{0, 0, 1}, {0, 0, M_PI / 2}, {1, 0, 0}};
+  CHECK((motion({2, 0, 0}, 1) - Vector3(1, 1, 1)).norm() < 1e-12);
+  CHECK((motion({2, 0, 0}, 2) - Vector3(0, 0, 2)).norm() < 1e-12);
+}
+
+TEST_CASE("an end that was moved stays when it is held, and comes back when it is released") {
+  SolidParameters parameters;
+  parameters.contact = false;
+  SolidProblem problem({{make_section(12), layers(), [](const Vector3& X) { return X; }}},
+                       parameters);
+  const auto head = problem.section(0, problem.strands()[0].layers() - 1);
+  problem.hold(problem.section(0, 0));
+  problem.move(head, RigidMotion{.shift = {0.3, 0, 0}});
+  REQUIRE(problem.go(1, 0.5).status == PathStatus::finished);
+  const double energy = problem.energy();
+  CHECK(energy > 1e-4);
+  problem.release(head);
+  problem.hold(head);
+  REQUIRE(problem.go(1.5, 1).status == PathStatus::finished);
+  CHECK(problem.energy() == Approx(energy).epsilon(1e-6));
+  problem.release(head);
+  REQUIRE(problem.go(2, 1).status == PathStatus::finished);
+  CHECK(problem.energy() < 1e-10);
+}
+
 TEST_CASE("a pulled strand is held by what pulls it, and stretches as its material says") {
   SolidParameters parameters;
   parameters.contact = false;

@@ -124,6 +124,10 @@ TEST_CASE("two strands touch by the sum of their radii, with balanced forces") {
   contact.refresh(x);
   CHECK(contact.max_penetration() == Approx(Crossing::overlap).margin(3e-3));
   const auto at = test::evaluate(contact, x, Vector::Zero(x.size()));
+  double energy = 0;
+  for (const auto& sample : contact.samples())
+    if (sample.faces) energy += sample.weight * contact.law().energy(sample.gap);
+  CHECK(at.energy == Approx(energy));
   Vector3 force[2] = {Vector3::Zero(), Vector3::Zero()}, torque = Vector3::Zero();
   for (int i = 0; i < crossing.positions(); i += 3) {
     const Vector3 f = at.gradient.segment<3>(i);
