@@ -140,7 +140,7 @@ class Check {
     if (!scene_.naturally_straight() && !scene_.twist)
       refuse("effects.twist", "natural curvature and twist need the rod's twist");
     bool refused = false;  // what friction brings along is not to be blamed on the user
-    for (const AskedEffect& effect : asked_effects(scene_))
+    for (const KnownEffect& effect : asked_effects(scene_))
       if (!effect.available && !(refused && !values_.written(effect.key))) {
         refused = true;
         refuse(effect.key,
@@ -151,7 +151,7 @@ class Check {
  private:
   std::string available() const {
     std::string names;
-    for (const AskedEffect& effect : asked_effects(scene_))
+    for (const KnownEffect& effect : asked_effects(scene_))
       if (effect.available) names += (names.empty() ? "" : ", ") + effect.name;
     return names;
   }

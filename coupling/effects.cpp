@@ -4,26 +4,30 @@
 
 namespace bight::coupling {
 
-std::vector<AskedEffect> asked_effects(const Scene& scene) {
-  std::vector<AskedEffect> effects = {
+std::vector<KnownEffect> known_effects(const Scene& scene) {
+  const bool rod_alone = !scene.solid, weighs = scene.gravity != Vector3::Zero();
+  const bool hourglass = solid3d::hex_element(scene.element).hourglass;
+  // name, key, in the rod, in the solid, asked for, available
+  return {
       {"stretch", "", true, false},
       {"bend", "", true, false},
       {"strain", "", false, true},
+      {"hourglass", "solid3d.element", false, true, hourglass},
+      {"contact", "effects.contact", true, true, scene.contact},
+      {"friction", "effects.friction", true, true, scene.friction > 0},
+      {"twist", "effects.twist", true, false, scene.twist},
+      {"natural curvature", "rod.natural_curvature", true, false, scene.natural_curvature != 0,
+       rod_alone},
+      {"natural twist", "rod.natural_twist", true, false, scene.natural_twist != 0, rod_alone},
+      {"gravity", "effects.gravity", true, false, weighs, rod_alone},
+      {"inertia", "effects.inertia", true, false, scene.inertia, rod_alone},
+      {"damping", "effects.damping", true, false, scene.damping > 0, rod_alone},
   };
-  if (solid3d::hex_element(scene.element).hourglass)
-    effects.push_back({"hourglass", "solid3d.element", false, true});
-  if (scene.contact) effects.push_back({"contact", "effects.contact"});
-  if (scene.friction > 0) effects.push_back({"friction", "effects.friction"});
-  if (scene.twist) effects.push_back({"twist", "effects.twist", true, false});
-  const bool rod_alone = !scene.solid;
-  if (scene.natural_curvature != 0)
-    effects.push_back({"natural curvature", "rod.natural_curvature", true, false, rod_alone});
-  if (scene.natural_twist != 0)
-    effects.push_back({"natural twist", "rod.natural_twist", true, false, rod_alone});
-  if (scene.gravity != Vector3::Zero())
-    effects.push_back({"gravity", "effects.gravity", true, false, rod_alone});
-  if (scene.inertia) effects.push_back({"inertia", "effects.inertia", true, false, rod_alone});
-  if (scene.damping > 0) effects.push_back({"damping", "effects.damping", true, false, rod_alone});
+}
+
+std::vector<KnownEffect> asked_effects(const Scene& scene) {
+  std::vector<KnownEffect> effects = known_effects(scene);
+  std::erase_if(effects, [](const KnownEffect& effect) { return !effect.asked; });
   return effects;
 }
 

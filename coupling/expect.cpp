@@ -5,17 +5,20 @@
 #include <algorithm>
 
 #include "coupling/effects.h"
+#include "coupling/expect_effects.h"
 #include "rod1d/knots.h"
 #include "solid3d/mesh.h"
 
 namespace bight::coupling {
 namespace {
 
-std::string names(const Scene& scene, bool AskedEffect::*in) {
+// What this fidelity could simulate and the scene does not ask for.
+std::string left_out(const Scene& scene, bool KnownEffect::*in) {
   std::string text;
-  for (const AskedEffect& effect : asked_effects(scene))
-    if (effect.*in) text += (text.empty() ? "" : ", ") + effect.name;
-  return text;
+  for (const KnownEffect& effect : known_effects(scene))
+    if (effect.*in && !effect.asked)
+      text += fmt::format("{} {} ({})", text.empty() ? "" : ",", effect.name, effect.key);
+  return text.empty() ? "" : "       left out:" + text + "\n";
 }
 
 std::string knot_line(const Scene& scene) {
@@ -30,10 +33,12 @@ std::string knot_line(const Scene& scene) {
 }
 
 std::string rod_line(const Scene& scene) {
-  const int unknowns = 3 * (scene.segments + 1) + (scene.twist ? scene.segments : 0);
-  return fmt::format("rod    {}\n       {} segments of {:.3g} D, {} unknowns, less than 0.1 GB\n",
-                     names(scene, &AskedEffect::in_rod), scene.segments,
-                     scene.slenderness() / scene.segments, unknowns);
+  const std::vector<ExpectedCost> costs = expected_rod(scene);
+  int unknowns = 0;
+  for (const ExpectedCost& cost : costs) unknowns += cost.unknowns;
+  return fmt::format("rod    {} segments of {:.3g} D, {} unknowns, less than 0.1 GB\n{}{}",
+                     scene.segments, scene.slenderness() / scene.segments, unknowns,
+                     costs_text(costs), left_out(scene, &KnownEffect::in_rod));
 }
 
 // The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
@@ -51,10 +56,9 @@ std::string solid_line(const Scene& scene) {
   const double entries = 1.2 * mesh.layers() * block * block * (scene.contact ? 2 : 1);
   const double gigabytes = (8 * entries + 3000.0 * mesh.nodes()) / 1e9;
   return fmt::format(
-      "solid  {}\n       {} cells in a section, about {} layers, {} cells, {} unknowns, "
-      "{:.1f} GB\n",
-      names(scene, &AskedEffect::in_solid), section.quads.size(), mesh.layers(), mesh.cells.size(),
-      3 * mesh.nodes(), gigabytes);
+      "solid  {} cells in a section, about {} layers, {} cells, {} unknowns, {:.1f} GB\n{}{}",
+      section.quads.size(), mesh.layers(), mesh.cells.size(), 3 * mesh.nodes(), gigabytes,
+      costs_text(expected_solid(scene, mesh)), left_out(scene, &KnownEffect::in_solid));
 }
 
 }  // namespace
@@ -73,8 +77,10 @@ std::string expectations(const Scene& scene) {
   for (const double force : scene.forces) text += fmt::format(" -> {:g} N", force);
   text += fmt::format(", {} states recorded\n", scene.path.record.size() + scene.forces.size());
   text += knot_line(scene);
-  if (scene.rod || scene.solid) text += rod_line(scene);
+  text += rod_line(scene);
   if (scene.solid) text += solid_line(scene);
+  if (scene.symmetry || scene.rod_symmetry)
+    text += "       of a knot that has a symmetry one half is simulated, with half the unknowns\n";
   for (const std::string& warning : scene.warnings) text += "warning: " + warning + "\n";
   return text;
 }

@@ -75,11 +75,22 @@ Json energies(const std::map<std::string, double>& by_effect, double scale) {
   return result;
 }
 
+Json costs(const std::vector<EffectCost>& by_effect) {
+  Json result = Json::object();
+  for (const EffectCost& cost : by_effect)
+    result[cost.name] = {{"seconds", cost.seconds},
+                         {"stencils", cost.stencils},
+                         {"unknowns", cost.unknowns},
+                         {"matrix_MB", 1e-6 * 12 * static_cast<double>(cost.entries)}};
+  return result;
+}
+
 Json rod_numbers(const rod1d::RodResult& rod, const Scene& scene) {
   Json result = {
       {"segments", scene.segments}, {"unknowns", rod.unknowns}, {"effects", rod.effects}};
   result.update(path_numbers(rod.outcome, rod.steps));
   result["seconds"] = rod.seconds;
+  result["cost_by_effect"] = costs(rod.costs);
   for (const rod1d::RodState& state : rod.states) {
     const double bending = 0.5 * std::ranges::max(state.curvature);
     const double stretch = std::ranges::max(state.stretch) - 1;
@@ -115,6 +126,7 @@ Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
     result["smallest_jacobian"] =
         std::ranges::min(solid.steps, {}, &StepRow::min_jacobian).min_jacobian;
   result["seconds"] = solid.seconds;
+  result["cost_by_effect"] = costs(solid.costs);
   for (const solid3d::SolidState& state : recorder.solid_states)
     result["states"].push_back(
         {{"ebar", state.ebar},

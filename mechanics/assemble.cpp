@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 namespace bight {
 
@@ -13,6 +14,18 @@ namespace {
 constexpr int chunk_size = 512;
 /// Below this many stencils an effect is cheaper on one thread.
 constexpr int parallel_from = 512;
+
+/// Adds the life of this object to a sum of seconds.
+class Timed {
+ public:
+  explicit Timed(double& sum) : sum_(sum) {}
+  ~Timed() { sum_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point begin_ = Clock::now();
+};
 
 }  // namespace
 
@@ -84,6 +97,12 @@ void apply_signs(const Unknowns& unknowns, std::span<const int> coordinates, Ent
     }
 }
 
+/// Ascending, each once.
+void sort_out(std::vector<int>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 bool touches_turn(const Unknowns& unknowns, std::span<const int> coordinates) {
   if (unknowns.turns().empty()) return false;
   for (int c : coordinates)
@@ -99,7 +118,10 @@ Assembler::Assembler(const Unknowns& unknowns, const EffectList& effects)
 Assembler::~Assembler() = default;
 
 void Assembler::refresh(const Vector& x) {
-  for (const auto& effect : effects_) effect->refresh(x);
+  for (const auto& effect : effects_) {
+    const Timed timed(seconds_by_effect_[std::string(effect->name())]);
+    effect->refresh(x);
+  }
 }
 
 double Assembler::energy(const Vector& x) {
@@ -116,6 +138,7 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
   double total = 0;
   bool covered = true;
   for (const auto& effect : effects_) {
+    const Timed timed(seconds_by_effect_[std::string(effect->name())]);
     const int count = effect->stencils();
     const int threads = count < parallel_from ? 1 : omp_get_max_threads();
     double sum = 0;
@@ -217,33 +240,58 @@ std::int64_t Assembler::find_block(int column_block, int row_block) const {
   return block_offset_[static_cast<size_t>(it - block_row_.begin())];
 }
 
+/// Adds to every block's column the rows that an effect couples it with, itself among them.
+void Assembler::couple(const Effect& effect, std::vector<std::vector<int>>& rows) const {
+  std::vector<int> clique;
+  effect.couplings([&](std::span<const int> coordinates) {
+    clique.clear();
+    for (int c : coordinates) {
+      const int turn = unknowns_.turn_of(c);
+      const int u = unknowns_.index(turn < 0 ? c : unknowns_.turns()[turn].angle);
+      if (u < 0) continue;
+      const int block = unknowns_.block_of(u);
+      if (clique.empty() || clique.back() != block) clique.push_back(block);
+    }
+    sort_out(clique);
+    for (size_t i = 0; i < clique.size(); ++i) {
+      auto& column = rows[clique[i]];
+      // Keep the lists short: contact names the same pairs again and again.
+      if (column.size() > 4096) sort_out(column);
+      column.insert(column.end(), clique.begin() + static_cast<long>(i), clique.end());
+    }
+  });
+}
+
+std::vector<EffectCost> Assembler::costs(const std::map<std::string, double>& before) const {
+  std::vector<EffectCost> costs;
+  std::vector<std::vector<int>> rows(unknowns_.blocks());
+  int unknowns = 0;
+  std::size_t entries = 0;
+  for (const auto& effect : effects_) {
+    couple(*effect, rows);
+    EffectCost cost{std::string(effect->name()), effect->stencils(), -unknowns, 0 - entries, 0};
+    unknowns = 0, entries = 0;
+    for (int b = 0; b < unknowns_.blocks(); ++b) {
+      sort_out(rows[b]);
+      const int size = unknowns_.block_size(b);
+      if (!rows[b].empty()) unknowns += size;
+      for (const int row : rows[b])
+        entries += static_cast<std::size_t>(size * unknowns_.block_size(row));
+    }
+    cost.unknowns += unknowns, cost.entries += entries;
+    for (const auto* seconds : {&seconds_by_effect_, &before})
+      if (const auto found = seconds->find(cost.name); found != seconds->end())
+        cost.seconds += found->second;
+    costs.push_back(std::move(cost));
+  }
+  return costs;
+}
+
 void Assembler::build_pattern() {
   const int blocks = unknowns_.blocks();
   std::vector<std::vector<int>> rows(blocks);
   for (int b = 0; b < blocks; ++b) rows[b].push_back(b);
-  std::vector<int> clique;
-  for (const auto& effect : effects_)
-    effect->couplings([&](std::span<const int> coordinates) {
-      clique.clear();
-      for (int c : coordinates) {
-        const int turn = unknowns_.turn_of(c);
-        const int u = unknowns_.index(turn < 0 ? c : unknowns_.turns()[turn].angle);
-        if (u < 0) continue;
-        const int block = unknowns_.block_of(u);
-        if (clique.empty() || clique.back() != block) clique.push_back(block);
-      }
-      std::sort(clique.begin(), clique.end());
-      clique.erase(std::unique(clique.begin(), clique.end()), clique.end());
-      for (size_t i = 0; i < clique.size(); ++i) {
-        auto& column = rows[clique[i]];
-        // Keep the lists short: contact names the same pairs again and again.
-        if (column.size() > 4096) {
-          std::sort(column.begin(), column.end());
-          column.erase(std::unique(column.begin(), column.end()), column.end());
-        }
-        column.insert(column.end(), clique.begin() + static_cast<long>(i), clique.end());
-      }
-    });
+  for (const auto& effect : effects_) couple(*effect, rows);
 
   block_start_.assign(1, 0);
   block_row_.clear();
@@ -252,8 +300,7 @@ void Assembler::build_pattern() {
   hessian_.row.clear();
   for (int b = 0; b < blocks; ++b) {
     auto& column = rows[b];
-    std::sort(column.begin(), column.end());
-    column.erase(std::unique(column.begin(), column.end()), column.end());
+    sort_out(column);
     int offset = 0;
     for (int row : column) {
       block_row_.push_back(row);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,6 +14,15 @@
 namespace bight {
 
 using EffectList = std::vector<std::unique_ptr<Effect>>;
+
+/// What an effect brings to a system, and how long it has taken.
+struct EffectCost {
+  std::string name;
+  int stencils = 0;         ///< that may carry energy at present
+  int unknowns = 0;         ///< that no effect before it in the list depends on
+  std::size_t entries = 0;  ///< of the Hessian's pattern, beyond those of the effects before it
+  double seconds = 0;       ///< wall, in finding and computing its stencils
+};
 
 /// Sums the elements of a list of effects to energy, gradient and Hessian.
 ///
@@ -41,12 +51,20 @@ class Assembler {
   /// Energy by effect of the last evaluation.
   const std::map<std::string, double>& energy_by_effect() const { return energy_by_effect_; }
 
+  /// What each effect of the list costs. `before`: seconds by effect of assemblers that this one
+  /// has replaced. Walks all couplings: not for every step.
+  std::vector<EffectCost> costs(const std::map<std::string, double>& before = {}) const;
+
+  /// Wall seconds by effect so far.
+  const std::map<std::string, double>& seconds_by_effect() const { return seconds_by_effect_; }
+
   const Unknowns& unknowns() const { return unknowns_; }
   const EffectList& effects() const { return effects_; }
 
  private:
   struct Chunk;
   void build_pattern();
+  void couple(const Effect& effect, std::vector<std::vector<int>>& rows) const;
   bool scatter(const Chunk& chunk, int thread, int threads);
   std::int64_t find_block(int column_block, int row_block) const;
 
@@ -56,7 +74,7 @@ class Assembler {
   /// By column block: its row blocks, ascending, and the offset of each inside a column.
   std::vector<int> block_start_, block_row_, block_offset_;
   int pattern_version_ = 0;
-  std::map<std::string, double> energy_by_effect_;
+  std::map<std::string, double> energy_by_effect_, seconds_by_effect_;
   std::unique_ptr<Chunk> chunk_;  ///< kept, since it is allocated memory all over
 };
 

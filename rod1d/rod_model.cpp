@@ -151,6 +151,9 @@ void RodModel::set_equations() {
   if (turned_by_itself() ? !rubs_ && !symmetry_ : pin_ >= 0 && determinant_ != 1)
     held[Rod::position(middle_node()) + 2] = true;
   seconds_ = seconds();
+  if (equations_)
+    for (const auto& [effect, time] : equations_->assembler.seconds_by_effect())
+      seconds_by_effect_[effect] += time;
   equations_ = std::make_unique<Equations>(rod_.blocks(parameters_.twist), held, images,
                                            symmetry_ ? halves_ : effects_.list);
 }
@@ -319,6 +322,10 @@ std::map<std::string, double> RodModel::seconds() const {
   if (equations_)
     for (const auto& [phase, time] : equations_->system.seconds) sum[phase] += time;
   return sum;
+}
+
+std::vector<EffectCost> RodModel::costs() const {
+  return equations_->assembler.costs(seconds_by_effect_);
 }
 
 int RodModel::unknowns() const { return equations_->unknowns.size(); }

@@ -49,6 +49,7 @@ class RodModel final : public ForceModel {
   /// Wall seconds by phase of all solves so far.
   std::map<std::string, double> seconds() const;
   std::vector<std::string> effect_names() const;
+  std::vector<EffectCost> costs() const;
 
  private:
   struct Equations;
@@ -124,7 +125,8 @@ class RodModel final : public ForceModel {
   int last_iterations_ = 0;          ///< of the last solve
   bool far_ = true;                  ///< the equilibrium to be found may be far from the guess
   std::map<std::string, double> energy_by_effect_;
-  std::map<std::string, double> seconds_;  ///< of equations that were replaced
+  std::map<std::string, double> seconds_;            ///< of equations that were replaced
+  std::map<std::string, double> seconds_by_effect_;  ///< the same
   std::chrono::steady_clock::time_point began_;
 };
 

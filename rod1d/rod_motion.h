@@ -42,6 +42,7 @@ class RodMotion {
   const std::map<std::string, double>& energy_by_effect() const {
     return assembler_.energy_by_effect();
   }
+  std::vector<EffectCost> costs() const { return assembler_.costs(); }
   /// Lost to damping so far [E D^3].
   double dissipated() const { return dissipated_; }
 

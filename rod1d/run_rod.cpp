@@ -246,6 +246,7 @@ RodResult run_rod(const RodParameters& asked, const RodObserver& observer) {
   result.outcome = parameters.forces.empty() ? follow(parameters.path, followed, path_observer)
                                              : follow_forces(parameters, model, path_observer);
   result.seconds["path"] = seconds_since(tied);
+  result.costs = timed ? timed->costs() : model.costs();
   for (const auto& [phase, seconds] : model.seconds()) result.seconds[phase] = seconds;
   return result;
 }

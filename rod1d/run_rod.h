@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/assemble.h"
 #include "mechanics/path.h"
 #include "mechanics/types.h"
 
@@ -22,13 +23,13 @@ struct RodParameters {
   /// Of the free rod: curvature about the director d1, and twist [1/D]. Both need twist.
   double natural_curvature = 0, natural_twist = 0;
   bool contact = true;
-  bool twist = false;                 ///< twist angles are unknowns
-  double friction = 0;                ///< Coulomb coefficient; 0: no friction effect
-  Vector3 gravity = Vector3::Zero();  ///< acceleration [E/(rho D)]; zero: no gravity effect
-  bool inertia = false;               ///< the path is followed in time, not through equilibria
-  double damping = 0;                 ///< in proportion to mass [1/(D sqrt(rho/E))]; needs inertia
-  double speed = 1e-5;                ///< of one end against the other, with inertia [sqrt(E/rho)]
-  double time_tolerance = 1e-4;       ///< error allowed in a time step [D]
+  bool twist = false;                  ///< twist angles are unknowns
+  double friction = 0;                 ///< Coulomb coefficient; 0: no friction effect
+  Vector3 gravity = Vector3::Zero();   ///< acceleration [E/(rho D)]; zero: no gravity effect
+  bool inertia = false;                ///< the path is followed in time, not through equilibria
+  double damping = 0;                  ///< in proportion to mass [1/(D sqrt(rho/E))]; needs inertia
+  double speed = 1e-5;                 ///< of one end against the other, with inertia [sqrt(E/rho)]
+  double time_tolerance = 1e-4;        ///< error allowed in a time step [D]
   int segments = 340;
   /// Nodes follow the knot along the rod instead of staying at equal distances on it. What friction
   /// and twist remember of material points is carried along.
@@ -79,6 +80,7 @@ struct RodResult {
   std::vector<RodState> states;  ///< one per recorded ebar reached
   int unknowns = 0;
   std::vector<std::string> effects;       ///< names of the effects that were simulated
+  std::vector<EffectCost> costs;          ///< of those with stencils, at the end of the path
   std::map<std::string, double> seconds;  ///< wall seconds by phase: tie, path, ...
 };
 

@@ -35,6 +35,7 @@ class TimedRod final : public PathModel {
 
   /// The present state in full.
   RodState state();
+  std::vector<EffectCost> costs() const { return motion_->costs(); }
 
  private:
   void move_grips(double time, Vector& x, Vector& v) const;

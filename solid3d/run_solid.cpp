@@ -30,6 +30,8 @@ class RenewedPath final : public PathModel {
   SolidModel& model() { return *model_; }
   void renew(const SolidCheckpoint& from) {
     for (const auto& [phase, time] : model_->seconds()) seconds_[phase] += time;
+    for (const auto& [effect, time] : model_->seconds_by_effect())
+      seconds_by_effect_[effect] += time;
     model_ = build_();
     model_->restore(from);
   }
@@ -38,11 +40,12 @@ class RenewedPath final : public PathModel {
     for (const auto& [phase, time] : model_->seconds()) sum[phase] += time;
     return sum;
   }
+  std::vector<EffectCost> costs() const { return model_->costs(seconds_by_effect_); }
 
  private:
   Build build_;
   std::unique_ptr<SolidModel> model_;
-  std::map<std::string, double> seconds_;  ///< of models that were replaced
+  std::map<std::string, double> seconds_, seconds_by_effect_;  ///< of models that were replaced
 };
 
 }  // namespace
@@ -92,6 +95,7 @@ SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, doubl
   on_path.interrupted = observer.interrupted;
   result.outcome = follow(path, path_model, on_path, from ? from->progress : PathProgress{});
   result.seconds = path_model.seconds();
+  result.costs = path_model.costs();
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/assemble.h"
 #include "mechanics/path.h"
 #include "mechanics/types.h"
 #include "solid3d/material/parameters.h"
@@ -68,6 +69,7 @@ struct SolidResult {
   int unknowns = 0, cells = 0;
   bool symmetric = false;  ///< one half was simulated, the other is its image
   std::vector<std::string> effects;
+  std::vector<EffectCost> costs;  ///< of the same, at the end of the path
   std::map<std::string, double>
       seconds;  ///< by phase: relax, assembly, contact, factorisation, ...
 };

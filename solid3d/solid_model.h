@@ -42,6 +42,12 @@ class SolidModel final : public PathModel {
   bool symmetric() const { return symmetry_.has_value(); }
   const EffectList& effects() const { return effects_.list; }
   const std::map<std::string, double>& seconds() const { return system_.seconds; }
+  const std::map<std::string, double>& seconds_by_effect() const {
+    return assembler_.seconds_by_effect();
+  }
+  std::vector<EffectCost> costs(const std::map<std::string, double>& before) const {
+    return assembler_.costs(before);
+  }
   void observe(NewtonObserver observer) { observer_ = std::move(observer); }
 
  private:

@@ -159,3 +159,23 @@ TEST_CASE("the sums do not depend on the number of threads") {
   CHECK(gradient[0] == gradient[1]);
   CHECK(value[0] == value[1]);
 }
+
+TEST_CASE("an effect costs the unknowns and entries that no effect before it needs") {
+  // Four points in a row; the second effect couples the first point with the third.
+  EffectList effects;
+  effects.push_back(std::make_unique<test::Springs>(
+      std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
+  effects.push_back(std::make_unique<test::Springs>(
+      std::vector<test::Springs::Spring>{{3, 6, 1, 1}, {0, 6, 1, 1}, {6, 9, 1, 1}}));
+  const Unknowns unknowns({0, 3, 6, 9}, 12, std::vector<bool>(12, false));
+  const Assembler assembler(unknowns, effects);
+  const auto costs = assembler.costs({{"springs", 2.5}});
+  REQUIRE(costs.size() == 2);
+  CHECK(costs[0].stencils == 2);
+  CHECK(costs[0].unknowns == 9);
+  CHECK(costs[0].entries == 9 * (3 + 2));  // blocks on the diagonal and below it
+  CHECK(costs[1].stencils == 3);
+  CHECK(costs[1].unknowns == 3);
+  CHECK(costs[1].entries == 9 * (1 + 2));
+  CHECK(costs[0].seconds == 2.5);
+}
