@@ -50,6 +50,9 @@ class Effect {
 
   virtual std::string_view name() const = 0;
 
+  /// Whether it acts from outside: its energy changes when all is moved or turned as a whole.
+  virtual bool from_outside() const { return false; }
+
   /// Number of stencils that may carry energy now, and the coordinates of each.
   virtual int stencils() const = 0;
   virtual std::span<const int> coordinates(int stencil) const = 0;

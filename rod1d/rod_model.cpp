@@ -63,7 +63,7 @@ RodModel::RodModel(const RodParameters& parameters, const Polyline& start)
       effects_(make_effects(rod_, parameters, source_)),
       began_(std::chrono::steady_clock::now()) {
   Polyline line = chord_on_axis(start);
-  if (parameters.symmetry && rod_.straight() && !parameters.inertia && !weighs())
+  if (parameters.symmetry && rod_.straight() && !parameters.inertia && !acted_on())
     symmetry_ = TwoFold::find(line, parameters.segments);
   // A turn of one end against the other is no inversion's image.
   if (inverts() && parameters.finish_turn != 0) symmetry_.reset();

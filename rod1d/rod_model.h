@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -92,10 +93,13 @@ class RodModel final : public ForceModel {
   NewtonResult solve_once(const Vector& guess);
   Vector rolled(Vector x, double angle) const;
   Vector let_move(const Vector& x);
-  bool weighs() const { return parameters_.gravity != Vector3::Zero(); }
+  /// Something acts from outside: weight, a field.
+  bool acted_on() const {
+    return std::ranges::any_of(effects_.list, [](const auto& e) { return e->from_outside(); });
+  }
   /// A turn about the axis does change the energy.
   bool inverts() const { return symmetry_ && symmetry_->kind() == TwoFold::Kind::inversion; }
-  bool turned_by_itself() const { return weighs() || !rod_.straight(); }
+  bool turned_by_itself() const { return acted_on() || !rod_.straight(); }
   NewtonResult solve_rubbing(const Vector& guess, bool thorough);
   NewtonResult solve_contact(Vector x);
 

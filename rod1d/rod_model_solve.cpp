@@ -53,7 +53,7 @@ NewtonResult RodModel::solve_once(const Vector& guess) {
   }
   // A knot that hangs rolls over where its centre of mass comes above the axis: too far for Newton,
   // which may also find the balance in between.
-  for (int k = 0; k < most_motions && weighs() && !rubs_; ++k) {
+  for (int k = 0; k < most_motions && acted_on() && !rubs_; ++k) {
     if (result.ok() && stable(equations_->assembler, result.x)) break;
     const NewtonResult before = std::move(result);
     result = newton(equations_->system, let_move(rolled(before.x, slight_roll)), options);

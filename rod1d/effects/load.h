@@ -22,6 +22,7 @@ class Load final : public Effect {
     return sum;
   }
   std::string_view name() const override { return name_; }
+  bool from_outside() const override { return true; }
   int stencils() const override { return stencils_.size(); }
   std::span<const int> coordinates(int i) const override { return stencils_[i]; }
   void element(const Vector& x, int i, Order order, ElementSlot& slot) const override {

@@ -167,7 +167,7 @@ TEST_CASE("a rigid motion changes no energy, and internal forces and torques bal
       moved[rod.angle(i)] += std::atan2(d.dot(carried.binormal(i)), d.dot(carried.normal[i]));
     }
     for (const auto& effect : every.effects.list) {
-      if (effect->name() == "gravity") continue;  // from outside
+      if (effect->from_outside()) continue;
       if (effect->name() == "friction") every.rub(state.x);
       INFO(state.name << ", " << effect->name());
       const auto here = test::evaluate(*effect, state.x, Vector::Zero(state.x.size()));
