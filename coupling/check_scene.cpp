@@ -125,9 +125,11 @@ class Check {
   }
 
   void motion() {
-    const auto direction = values_.get<std::vector<double>>("effects.gravity_direction");
-    if (direction.size() != 3 || Vector3(direction.data()) == Vector3::Zero())
-      refuse("effects.gravity_direction", "give three numbers, x, y and z, that are not all zero");
+    for (const char* key : {"effects.gravity_direction", "effects.magnetic_direction"}) {
+      const auto direction = values_.get<std::vector<double>>(key);
+      if (direction.size() != 3 || Vector3(direction.data()) == Vector3::Zero())
+        refuse(key, "give three numbers, x, y and z, that are not all zero");
+    }
     if (scene_.damping > 0 && !scene_.inertia)
       refuse("effects.damping",
              "a path of equilibria has no motion to damp; needs effects.inertia");

@@ -6,6 +6,7 @@ namespace bight::coupling {
 
 std::vector<KnownEffect> known_effects(const Scene& scene) {
   const bool rod_alone = !scene.solid, weighs = scene.gravity != Vector3::Zero();
+  const bool magnetic = scene.magnetic_field != Vector3::Zero();
   const bool hourglass = solid3d::hex_element(scene.element).hourglass;
   // name, key, in the rod, in the solid, asked for, available
   return {
@@ -20,6 +21,7 @@ std::vector<KnownEffect> known_effects(const Scene& scene) {
        rod_alone},
       {"natural twist", "rod.natural_twist", true, false, scene.natural_twist != 0, rod_alone},
       {"gravity", "effects.gravity", true, false, weighs, rod_alone},
+      {"magnetic", "effects.magnetic_field", true, false, magnetic, rod_alone},
       {"inertia", "effects.inertia", true, false, scene.inertia, rod_alone},
       {"damping", "effects.damping", true, false, scene.damping > 0, rod_alone},
   };

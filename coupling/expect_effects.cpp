@@ -24,7 +24,7 @@ struct Measured {
   double touching = 0;  // stencils: of a rod per segment, of a solid per sample spacing^2/D^2
 };
 constexpr Measured of_rod[] = {{"stretch", 3e-6},       {"bend", 4.3e-6},   {"twist", 12e-6},
-                               {"gravity", 0.7e-6},     {"contact", 16e-6, 2},
+                               {"gravity", 0.7e-6},     {"magnetic", 3e-6}, {"contact", 16e-6, 2},
                                {"friction", 54e-6, 0.1}};
 constexpr Measured of_solid[] = {
     {"strain", 26e-6}, {"hourglass", 8e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};

@@ -89,6 +89,9 @@ const std::vector<Key>& all_keys() {
       {"material.density", quantity, "kg/m^3", above(0), {}, "1160", "",
        "Mass per volume; used by effects that know inertia or gravity"},
 
+      {"material.susceptibility", number, "", {0, 1e6}, {}, "1", "",
+       "Magnetic, per volume; used with effects.magnetic_field"},
+
       {"knot.type", word, "", {}, {"overhand", "figure-eight"}, "",
        "overhand, unless knot.centerline is given", "Knot to be tied"},
       {"knot.start", word, "", {}, {"loose", "straight"}, R"("loose")", "",
@@ -111,6 +114,10 @@ const std::vector<Key>& all_keys() {
        "Acceleration of gravity, by which the rod's mass is drawn"},
       {"effects.gravity_direction", numbers, "", {-1, 1}, {}, "[0, -1, 0]", "",
        "Where gravity points; the ends lie on the z axis"},
+      {"effects.magnetic_field", quantity, "T", {0, 1e3}, {}, "0", "",
+       "Uniform field that turns a paramagnetic rod into its line"},
+      {"effects.magnetic_direction", numbers, "", {-1, 1}, {}, "[1, 0, 0]", "",
+       "Where the magnetic field points; the ends lie on the z axis"},
       {"effects.inertia", boolean, "", {}, {}, "false", "",
        "The rod's path is followed in time, at path.speed, instead of through equilibria"},
       {"effects.damping", quantity, "1/s", {0, 1e9}, {}, "0", "",

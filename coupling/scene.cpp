@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "coupling/check_scene.h"
@@ -55,6 +56,21 @@ void derive_defaults(Values& values) {
   derive(values, "rod1d.segments", std::clamp(2 * std::round(4 * slenderness), 60.0, most));
 }
 
+// A size and a direction of three numbers that are not all zero, which is checked later.
+Vector3 pointing(const Values& values, const char* size, const char* direction) {
+  const auto numbers = values.get<std::vector<double>>(direction);
+  const Vector3 along = numbers.size() == 3 ? Vector3(numbers.data()) : Vector3::Zero();
+  return along.norm() > 0 ? Vector3(values.number(size) * along.normalized()) : along;
+}
+
+// m of rod1d/effects/magnetic.h.
+Vector3 magnetic_moment(const Scene& scene) {
+  constexpr double mu_0 = 1.25663706212e-6;  // N/A^2
+  const double chi = scene.susceptibility;
+  return scene.magnetic_field *
+         std::sqrt(std::numbers::pi / 4 * chi * chi / (2 + chi) / (mu_0 * scene.youngs_modulus));
+}
+
 // The first waypoint after which the path has come by the seed.
 size_t seed_leg(const Path& path, double seed_ebar) {
   size_t leg = 1;
@@ -101,9 +117,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.contact = values.get<bool>("effects.contact");
   scene.twist = values.get<bool>("effects.twist");
   scene.friction = values.number("effects.friction");
-  const auto direction = values.get<std::vector<double>>("effects.gravity_direction");
-  const Vector3 down = direction.size() == 3 ? Vector3(direction.data()) : Vector3::Zero();
-  if (down.norm() > 0) scene.gravity = values.number("effects.gravity") * down.normalized();
+  scene.gravity = pointing(values, "effects.gravity", "effects.gravity_direction");
+  scene.magnetic_field = pointing(values, "effects.magnetic_field", "effects.magnetic_direction");
+  scene.susceptibility = values.number("material.susceptibility");
   scene.inertia = values.get<bool>("effects.inertia");
   scene.damping = values.number("effects.damping");
   scene.speed = values.number("path.speed");
@@ -169,6 +185,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.twist = scene.twist;
   rod.friction = scene.friction;
   rod.gravity = scene.gravity / scene.scales().acceleration();
+  rod.magnetic = magnetic_moment(scene);
   rod.inertia = scene.inertia;
   rod.damping = scene.damping * scene.scales().time();
   rod.speed = scene.speed / scene.scales().speed();

@@ -29,6 +29,8 @@ struct Scene {
   double friction = 0;
   double natural_curvature = 0, natural_twist = 0;  ///< of the free rod [1/m]
   Vector3 gravity = Vector3::Zero();                ///< acceleration [m/s^2]
+  Vector3 magnetic_field = Vector3::Zero();         ///< [T]
+  double susceptibility = 0;
   bool inertia = false;
   double damping = 0;  ///< alpha [1/s]
   double speed = 0;    ///< of the moving end [m/s]

@@ -2,6 +2,7 @@
 
 #include "rod1d/effects/bend.h"
 #include "rod1d/effects/gravity.h"
+#include "rod1d/effects/magnetic.h"
 #include "rod1d/effects/natural_bend.h"
 #include "rod1d/effects/stretch.h"
 #include "rod1d/effects/twist.h"
@@ -27,6 +28,8 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const F
   if (!rod.straight()) add(std::make_unique<NaturalBend>(rod, source));
   if (parameters.twist) add(std::make_unique<Twist>(rod, source));
   if (parameters.gravity != Vector3::Zero()) add(gravity(rod, parameters.gravity));
+  if (parameters.magnetic != Vector3::Zero())
+    add(std::make_unique<Magnetic>(rod, parameters.magnetic));
   if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
   if (parameters.friction > 0)
     effects.friction = add(std::make_unique<Friction>(rod, *effects.contact, parameters.friction));

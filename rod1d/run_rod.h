@@ -26,6 +26,7 @@ struct RodParameters {
   bool twist = false;                  ///< twist angles are unknowns
   double friction = 0;                 ///< Coulomb coefficient; 0: no friction effect
   Vector3 gravity = Vector3::Zero();   ///< acceleration [E/(rho D)]; zero: no gravity effect
+  Vector3 magnetic = Vector3::Zero();  ///< field, see effects/magnetic.h [sqrt(E) D]; zero: none
   bool inertia = false;                ///< the path is followed in time, not through equilibria
   double damping = 0;                  ///< in proportion to mass [1/(D sqrt(rho/E))]; needs inertia
   double speed = 1e-5;                 ///< of one end against the other, with inertia [sqrt(E/rho)]

@@ -135,6 +135,11 @@ std::vector<Pair> pairs() {
                    [](Rod& r) {
                      r.follow_knot = false, r.symmetry = false, r.gravity = Vector3(0, -1e-6, 0);
                    }))},
+      {"magnetic", rod(changed(plain, equal)),
+       rod(changed(plain,
+                   [](Rod& r) {
+                     r.follow_knot = false, r.symmetry = false, r.magnetic = Vector3(0, 0, 1e-3);
+                   }))},
       {"inertia",
        rod(changed(plain,
                    [](Rod& r) {

@@ -22,7 +22,7 @@ namespace {
 
 const std::vector<std::string> choices = {
     "effects.contact=false",         "effects.friction=0.3", "effects.twist=true",
-    "rod.natural_curvature=5",       "effects.gravity=9.81", "ends.finish=clamped",
+    "rod.natural_curvature=5",       "effects.gravity=9.81", "effects.magnetic_field=0.1",
     "solid3d.element=reduced-hybrid"};
 
 std::set<std::string> names(const EffectList& effects) {

@@ -233,6 +233,22 @@ TEST_CASE("gravity, inertia and damping reach the rod in its own units") {
   CHECK_FALSE(rod.follow_knot);
 }
 
+TEST_CASE("a magnetic field reaches the rod in its own units, and is refused with the solid") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> field = {"effects.magnetic_field=50 mT",
+                                          "effects.magnetic_direction=[0, 0.3, 0.4]",
+                                          "material.susceptibility=2"};
+  const Scene scene =
+      read_scene(folder.write("knot.toml", "fidelities = [\"rod\"]\n" + small_scene), field);
+  const auto m = rod_parameters(scene).magnetic;
+  // B^2/mu_0 is 1989 Pa, of which chi^2/(2 + chi) = 1.
+  CHECK(m.squaredNorm() == Approx(0.25 * M_PI * 1989.4 / 1.25e6).epsilon(1e-4));
+  CHECK(m.z() / m.y() == Approx(4.0 / 3));
+  CHECK(m.x() == 0);
+  CHECK(complaint(small_scene, field).find("magnetic cannot be simulated with the solid") !=
+        std::string::npos);
+}
+
 TEST_CASE("gravity, inertia and damping are refused where they are not simulated") {
   const std::string solid = complaint(small_scene, {"effects.gravity=9.81"});
   CHECK(solid.find("gravity cannot be simulated with the solid yet") != std::string::npos);

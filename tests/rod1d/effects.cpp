@@ -26,6 +26,7 @@ struct EveryEffect {
     parameters.twist = true;
     parameters.friction = 0.3;
     parameters.gravity = Vector3(0.01, -0.03, 0.02);
+    parameters.magnetic = Vector3(0.1, 0.2, -0.1);
     rod = uniform_rod(parameters.length, parameters.segments, parameters.poissons_ratio);
     if (curved) {
       rod.rest_curvature.assign(rod.nodes(), Vector2(0.06, -0.03));
