@@ -22,7 +22,7 @@ constexpr double lost = 1e3;
 }  // namespace
 
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
-                            const NewtonOptions& options) {
+                            const NewtonOptions& options, const NewtonObserver& observer) {
   Assembler& assembler = system.assembler;
   const Unknowns& unknowns = assembler.unknowns();
   NewtonResult result;
@@ -62,7 +62,13 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     result.decrement = std::abs(g.dot(step));
 
     const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
+    const auto tell = [&](double fraction) {
+      if (observer)
+        observer({result.iterations, result.energy, result.residual, result.decrement, fraction,
+                  system.shift});
+    };
     if (longest == 1 && result.decrement <= small_step * options.energy_tolerance) {
+      tell(1);
       system.advance(x, dx);
       continue;
     }
@@ -76,6 +82,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     // The frozen energy is what keeps a wild step in bounds; near the solution it may rise.
     const double rise = options.bound.allowed(result.iterations) + 2 * result.decrement;
     const LineSearchResult found = search(energy_at, result.energy, rise, longest);
+    tell(found.step);
     if (found.step == 0) return finish(NewtonStatus::stalled, "no step lowers the energy");
     system.advance(x, found.step * dx);
   }

@@ -25,6 +25,7 @@ class FollowingForces {
 /// step is predicted to change. From a poor start it fails (`stalled`, or `too_many_iterations`),
 /// and minimisations at frozen forces have to be taken instead.
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
-                            const NewtonOptions& options);
+                            const NewtonOptions& options,
+                            const NewtonObserver& observer = {});
 
 }  // namespace bight

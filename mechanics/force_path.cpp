@@ -86,7 +86,7 @@ PathOutcome follow_forces(const ForcePath& path, ForceModel& model, const PathOb
       }
       tension = steps.accept(result, target, target - ebar).tension;
       ebar = target;
-      if (result.iterations <= easy_iterations) step = std::min(path.max_step, step_growth * step);
+      step = std::min(path.max_step, step_growth(result.iterations) * step);
     }
     observer.on_record(ebar);
   }

@@ -66,7 +66,7 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
           continue;
         }
         ebar = target;
-        if (iterations <= easy_iterations) step = std::min(path.max_step, step_growth * step);
+        step = std::min(path.max_step, step_growth(iterations) * step);
         observer.on_progress({w, ebar, step, steps.outcome});
       }
   return steps.outcome;

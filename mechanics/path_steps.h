@@ -53,8 +53,11 @@ class PathSteps {
   int cutbacks_ = 0;
 };
 
-/// Solves with fewer iterations let the step grow, by that factor.
-constexpr int easy_iterations = 10;
-constexpr double step_growth = 1.5;
+/// By how much the step may grow after a solve. A cut is no verdict on the rest of the path: with
+/// friction a solve has more iterations than an easy one, and still went well.
+inline double step_growth(int iterations) {
+  constexpr int easy = 10, bearable = 25;
+  return iterations <= easy ? 1.5 : iterations <= bearable ? 1.2 : 1.0;
+}
 
 }  // namespace bight

@@ -32,7 +32,7 @@ constexpr double friction_settled = 5e-4;
 constexpr int max_friction_passes = 10;
 /// Iterations with the last state's friction, which bring contact forces into range, and those with
 /// the whole tangent, at most; and their tolerances relative to the end tension.
-constexpr int few_first = 3, most_coupled = 25;
+constexpr int few_first = 3, most_coupled = 40;
 constexpr double first_tolerance = 1e-2, coupled_tolerance = 5e-7;
 
 }  // namespace
@@ -91,11 +91,11 @@ NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
   whole.force_tolerance = whole.energy_tolerance = coupled_tolerance * tension_;
   freeze(newest());
   const NewtonResult begun = newton(system_, guess, rough, observer_);
-  NewtonResult result = coupled_newton(system_, following, begun.x, whole);
+  NewtonResult result = coupled_newton(system_, following, begun.x, whole, observer_);
   result.count_on(begun);
   for (int i = 0; result.ok() && i < max_stiffenings && stiffen_contact(); ++i) {
     const NewtonResult before = std::move(result);
-    result = coupled_newton(system_, following, before.x, whole);
+    result = coupled_newton(system_, following, before.x, whole, observer_);
     result.count_on(before);
   }
   return result;
@@ -103,7 +103,7 @@ NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
 
 NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
   NewtonResult result = solve_rubbing(guess);
-  if (result.ok()) return result;
+  if (result.ok() || !relaxing_) return result;
   const NewtonResult tried = std::move(result);
   result = solve_with_friction_frozen(guess);
   result.count_on(tried);

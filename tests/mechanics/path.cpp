@@ -87,6 +87,27 @@ TEST_CASE("a step that fails is cut, and steps grow again where it is easy") {
   CHECK(reason);
 }
 
+TEST_CASE(
+    "after a cut, steps grow where solves are bearable, more slowly, and not where they are hard") {
+  const auto last_step = [](int iterations) {
+    FakeModel model;
+    model.iterations = iterations;
+    model.limit = [](double ebar) { return ebar > 8 && ebar < 9 ? 0.1 : 100.0; };
+    Seen seen;
+    Path path;
+    path.waypoints = {10, 7};
+    path.max_step = 0.8;
+    CHECK(follow(path, model, seen.observer).status == PathStatus::finished);
+    double longest = 0;
+    for (const StepRow& row : seen.rows)
+      if (row.ebar < 8) longest = std::max(longest, std::abs(row.increment));
+    return longest;
+  };
+  CHECK(last_step(4) > last_step(20));
+  CHECK(last_step(20) > 0.15);
+  CHECK(last_step(40) <= 0.1);
+}
+
 TEST_CASE("a path that cannot go on gives up with the reason, and keeps what it has") {
   FakeModel model;
   model.limit = [](double ebar) { return ebar < 8 ? -1.0 : 100.0; };
