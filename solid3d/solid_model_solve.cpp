@@ -103,7 +103,7 @@ NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
 
 NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
   NewtonResult result = solve_rubbing(guess);
-  if (result.ok() || !relaxing_) return result;
+  if (result.ok()) return result;
   const NewtonResult tried = std::move(result);
   result = solve_with_friction_frozen(guess);
   result.count_on(tried);
