@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
+
+#include "mechanics/timed.h"
 
 namespace bight {
 
@@ -14,18 +15,6 @@ namespace {
 constexpr int chunk_size = 512;
 /// Below this many stencils an effect is cheaper on one thread.
 constexpr int parallel_from = 512;
-
-/// Adds the life of this object to a sum of seconds.
-class Timed {
- public:
-  explicit Timed(double& sum) : sum_(sum) {}
-  ~Timed() { sum_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& sum_;
-  Clock::time_point begin_ = Clock::now();
-};
 
 }  // namespace
 

@@ -1,35 +1,19 @@
 #include "mechanics/newton.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "mechanics/newton_direction.h"
+#include "mechanics/timed.h"
 
 namespace bight {
 
-namespace {
-
-/// Adds the life of this object to a phase's seconds.
-class Timed {
- public:
-  Timed(System& system, const char* phase) : sum_(system.seconds[phase]) {}
-  ~Timed() { sum_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& sum_;
-  Clock::time_point begin_ = Clock::now();
-};
-
-}  // namespace
-
 double evaluate(System& system, const Vector& x, Order order, Vector& gradient) {
   {
-    Timed timed(system, "pairs");
+    const Timed timed(system.seconds["pairs"]);
     system.assembler.refresh(x);
   }
-  Timed timed(system, "assembly");
+  const Timed timed(system.seconds["assembly"]);
   return system.assembler.assemble(x, order, gradient);
 }
 
@@ -37,7 +21,7 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
                       NewtonResult& result, Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
   if (system.analysed_pattern != system.assembler.pattern_version()) {
-    Timed timed(system, "analysis");
+    const Timed timed(system.seconds["analysis"]);
     system.cholesky.analyse(H, system.ordering);
     system.analysed_pattern = system.assembler.pattern_version();
   }
@@ -53,7 +37,7 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
   if (shift < 1e-10 * largest) shift = 0;
   for (; shift <= 100 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;
-    Timed timed(system, "factorisation");
+    const Timed timed(system.seconds["factorisation"]);
     if (!system.cholesky.factor(H, shift)) continue;
     system.shift = shift;
     step = -system.cholesky.solve(g);
