@@ -44,7 +44,7 @@ std::string rod_line(const Scene& scene) {
 // The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
 std::string solid_line(const Scene& scene) {
   const solid3d::Section section = solid3d::make_section(scene.section_elements);
-  const double width = solid3d::make_mesh(section, {0, 1}).cell_width();
+  const double width = section.cell_width();
   const double middle = 0.5 * scene.slenderness();
   const double half = std::min(middle, 0.5 * (scene.seed_ebar + 6));
   const solid3d::Mesh mesh = solid3d::make_mesh(

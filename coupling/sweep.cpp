@@ -67,10 +67,9 @@ double roll_of_middle(const solid3d::Mesh& mesh, const std::vector<Matrix3>& fra
 
 solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod) {
   const solid3d::Section section = solid3d::make_section(options.section_elements);
-  const double width = std::sqrt(section.area() / static_cast<double>(section.quads.size()));
-  // The knot: where the rod is bent or touched. Tails are nearly straight.
-  // kappa D, or a part of the largest: what a loose knot's tails lack in length is in their
-  // bending.
+  const double width = section.cell_width();
+  // The knot: where kappa D is above most_bent, or above a part of the largest one. Tails are
+  // nearly straight; those of a loose knot are not, against its own curvature.
   constexpr double most_bent = 0.02, part = 0.1;
   const double bent =
       std::min(most_bent, part * *std::max_element(rod.curvature.begin(), rod.curvature.end()));

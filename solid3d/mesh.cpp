@@ -22,10 +22,6 @@ HexMesh hexahedra(std::span<const Mesh> strands) {
   return all;
 }
 
-double Mesh::cell_width() const {
-  return std::sqrt(section.area() / static_cast<double>(section.quads.size()));
-}
-
 Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node) {
   Mesh mesh{section, layers, {}, first_node};
   for (int k = 0; k + 1 < mesh.layers(); ++k)

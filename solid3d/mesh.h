@@ -19,6 +19,7 @@ struct Section {
   double diameter = 1;                    ///< d [D]
   double area() const;                    ///< of the polygon [D^2]
   double second_moment() const;           ///< of the polygon about x [D^4]
+  double cell_width() const;              ///< mean of the cells, sqrt(area / cells) [D]
 };
 
 /// About `cells` quadrilaterals: m x m core and r <= m/2 rings of 4 m (12, 21, 32, 60, 108 fit
@@ -47,8 +48,7 @@ struct Mesh {
   Vector3 reference(int node) const;
   /// Nodes and cells alone.
   HexMesh hexahedra() const { return bight::solid3d::hexahedra({this, 1}); }
-  /// Mean width of a section cell, sqrt(area / cells) [D].
-  double cell_width() const;
+  double cell_width() const { return section.cell_width(); }
 };
 
 Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node = 0);

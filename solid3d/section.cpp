@@ -49,6 +49,8 @@ double Section::area() const {
   return sum;
 }
 
+double Section::cell_width() const { return std::sqrt(area() / static_cast<double>(quads.size())); }
+
 /// I = sum (x_i y_{i+1} - x_{i+1} y_i)(y_i^2 + y_i y_{i+1} + y_{i+1}^2) / 12 over the polygon.
 double Section::second_moment() const {
   double sum = 0;

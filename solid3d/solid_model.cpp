@@ -102,8 +102,8 @@ StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
   if (symmetry_) {
     if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
     if (effects_.friction) {
-      whole_effects_.contact->refresh(frozen_at_);
-      whole_effects_.friction->freeze(frozen_at_, before);
+      whole_effects_.contact->refresh(rubbing_.frozen_at());
+      whole_effects_.friction->freeze(rubbing_.frozen_at(), before);
     }
     whole_assembler_->refresh(newest());
     row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);

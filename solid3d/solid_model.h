@@ -12,6 +12,7 @@
 #include "solid3d/checkpoint.h"
 #include "solid3d/effects.h"
 #include "solid3d/effects/grip.h"
+#include "solid3d/rubbing.h"
 #include "solid3d/run_solid.h"
 #include "solid3d/two_fold.h"
 
@@ -58,7 +59,6 @@ class SolidModel final : public PathModel {
   NewtonResult solve_with_friction_frozen(const Vector& guess);
   NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_with_friction(const Vector& guess);
-  void freeze(const Vector& x);
   Vector held(Vector x, double ebar) const;
   Vector best_guess(const Vector& guess, double ebar);
 
@@ -84,9 +84,6 @@ class SolidModel final : public PathModel {
   NewtonOptions options() const;
   double round_off() const;
   double energy(const Vector& x);
-
-  /// Where strands overlap more than they may; false where they do not.
-  bool stiffen_contact();
 
   /// Solves on from a solution after something has changed; counts on, too.
   NewtonResult go_on(NewtonResult solved);
@@ -120,9 +117,9 @@ class SolidModel final : public PathModel {
   double start_energy_ = 0;     ///< while relaxing
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;
-  Vector frozen_at_;              ///< where friction's spots were taken from
   std::vector<Station> history_;  ///< the last accepted states, newest last
-  Vector gradient_;               ///< by coordinates, at the newest
+  Rubbing rubbing_{effects_, history_};
+  Vector gradient_;  ///< by coordinates, at the newest
   NewtonObserver observer_;
   Clock::time_point begin_;
 };

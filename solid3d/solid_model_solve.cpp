@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
 #include "solid3d/measure.h"
 #include "solid3d/solid_model.h"
@@ -30,10 +29,6 @@ constexpr int softer_starts = 2;
 /// Friction has settled when the end tension changes by less than this part of it.
 constexpr double friction_settled = 5e-4;
 constexpr int max_friction_passes = 10;
-/// Iterations with the last state's friction, which bring contact forces into range, and those with
-/// the whole tangent, at most; and their tolerances relative to the end tension.
-constexpr int few_first = 3, most_coupled = 40;
-constexpr double first_tolerance = 1e-2, coupled_tolerance = 5e-7;
 
 }  // namespace
 
@@ -61,42 +56,17 @@ NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
 NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
   NewtonResult result = newton(system_, guess, options(), observer_);
   for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
-    if (!stiffen_contact()) break;
+    if (!effects_.contact->stiffen(parameters_.penetration)) break;
     result = go_on(std::move(result));
   }
   return result;
 }
 
-void SolidModel::freeze(const Vector& x) {
-  effects_.contact->refresh(x);
-  frozen_at_ = x;
-  effects_.friction->freeze(x, newest());
-}
-
-/// Newton steps with the whole tangent, after a few with the last state's friction: the contact
-/// forces of a guess are too rough to begin with.
 NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
-  struct Following final : FollowingForces {
-    explicit Following(SolidModel& model) : model(model) {}
-    void freeze(const Vector& x) override { model.freeze(x); }
-    void add_change(const Vector& dx, Vector& gradient) const override {
-      model.effects_.friction->add_change(model.frozen_at_, dx, gradient);
-    }
-    SolidModel& model;
-  } following(*this);
-  NewtonOptions rough = options(), whole = options();
-  rough.max_iterations = few_first;
-  rough.energy_tolerance = rough.force_tolerance = first_tolerance * tension_;
-  whole.max_iterations = most_coupled;
-  whole.force_tolerance = whole.energy_tolerance = coupled_tolerance * tension_;
-  freeze(newest());
-  const NewtonResult begun = newton(system_, guess, rough, observer_);
-  NewtonResult result = coupled_newton(system_, following, begun.x, whole, observer_);
-  result.count_on(begun);
-  for (int i = 0; result.ok() && i < max_stiffenings && stiffen_contact(); ++i) {
-    const NewtonResult before = std::move(result);
-    result = coupled_newton(system_, following, before.x, whole, observer_);
-    result.count_on(before);
+  NewtonResult result = newton_rubbing(system_, rubbing_, guess, options(), tension_, observer_);
+  for (int i = 0; result.ok() && i < max_stiffenings; ++i) {
+    if (!effects_.contact->stiffen(parameters_.penetration)) break;
+    result = newton_rubbing_on(system_, rubbing_, result, options(), tension_, observer_);
   }
   return result;
 }
@@ -115,11 +85,11 @@ NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
   result.x = newest();
   double tension = 0;
   for (int pass = 0; pass < max_friction_passes; ++pass) {
-    freeze(result.x);
+    rubbing_.freeze(result.x);
     if (pass == 0) {
       result = newton(system_, guess, options(), observer_);
     } else {
-      stiffen_contact();
+      effects_.contact->stiffen(parameters_.penetration);
       result = go_on(std::move(result));
     }
     if (!result.ok()) return result;
@@ -149,17 +119,7 @@ NewtonOptions SolidModel::options() const {
 /// positions as far as L0 from the origin, and K turns them into forces on a node.
 double SolidModel::round_off() const {
   const double eps = std::numeric_limits<double>::epsilon();
-  const double width =
-      std::sqrt(mesh_.section.area() / static_cast<double>(mesh_.section.quads.size()));
-  return 5 * eps * parameters_.material.bulk_modulus() * mesh_.s.back() * width;
-}
-
-bool SolidModel::stiffen_contact() {
-  const double overlap = effects_.contact->max_penetration();
-  if (overlap <= parameters_.penetration) return false;
-  effects_.contact->law().stiffness *=
-      std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
-  return true;
+  return 5 * eps * parameters_.material.bulk_modulus() * mesh_.s.back() * mesh_.cell_width();
 }
 
 NewtonResult SolidModel::go_on(NewtonResult solved) {

@@ -4,23 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/coupled_newton.h"
-
 namespace bight::solid3d {
 
 namespace {
 
-/// Tolerances of Newton relative to the largest force on a support, and with friction.
+/// Tolerances of Newton relative to the largest force on a support.
 constexpr double force_tolerance = 1e-8, energy_tolerance = 1e-9;
-constexpr double rubbing_tolerance = 5e-7;
 /// Energy rise that the first iteration may take, relative to that force times D.
 constexpr double energy_rise = 0.3;
 constexpr double shift_decay = 0.01;
-constexpr int max_iterations = 60, most_rubbing = 25;
-/// Iterations with the last state's friction, which bring contact forces into range, and their
-/// tolerance.
-constexpr int few_first = 3;
-constexpr double first_tolerance = 1e-2;
+constexpr int max_iterations = 60;
 /// Minimisations with frozen friction, at most; their tolerance; and the change of the reactions
 /// that ends them.
 constexpr int max_passes = 8;
@@ -202,8 +195,8 @@ NewtonResult SolidProblem::solve(const Vector& guess, double t) {
     return effects_.friction ? solve_rubbing(from) : minimise(from);
   };
   NewtonResult result = equilibrium(best);
-  for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings && stiffen_contact();
-       ++i) {
+  for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
+    if (!effects_.contact->stiffen(parameters_.penetration)) break;
     const NewtonResult before = std::move(result);
     result = equilibrium(before.x);
     result.count_on(before);
@@ -226,39 +219,15 @@ NewtonResult SolidProblem::minimise(const Vector& guess) {
   return newton(solver_->system, guess, options(force_tolerance, energy_tolerance), observer_);
 }
 
-void SolidProblem::freeze(const Vector& x) {
-  effects_.contact->refresh(x);
-  frozen_at_ = x;
-  effects_.friction->freeze(x, state());
-}
-
-/// Newton steps with the whole tangent, after a few with the last state's friction: the contact
-/// forces of a guess are too rough to begin with.
 NewtonResult SolidProblem::solve_rubbing(const Vector& guess) {
-  struct Following final : FollowingForces {
-    explicit Following(SolidProblem& problem) : problem(problem) {}
-    void freeze(const Vector& x) override { problem.freeze(x); }
-    void add_change(const Vector& dx, Vector& gradient) const override {
-      problem.effects_.friction->add_change(problem.frozen_at_, dx, gradient);
-    }
-    SolidProblem& problem;
-  } following(*this);
-  NewtonOptions rough = options(first_tolerance, first_tolerance);
-  NewtonOptions whole = options(rubbing_tolerance, rubbing_tolerance);
-  rough.max_iterations = few_first;
-  whole.max_iterations = most_rubbing;
-  freeze(state());
-  const NewtonResult begun = newton(solver_->system, guess, rough, observer_);
-  NewtonResult result = coupled_newton(solver_->system, following, begun.x, whole);
-  result.count_on(begun);
+  const NewtonOptions usual = options(force_tolerance, energy_tolerance);
+  NewtonResult result = newton_rubbing(solver_->system, rubbing_, guess, usual, scale_, observer_);
   if (result.ok()) return result;
   // From a poor guess: minimise with frozen friction until it is near, then once more.
   NewtonResult near = solve_frozen(guess);
   near.count_on(result);
   if (!near.ok()) return near;
-  result = coupled_newton(solver_->system, following, near.x, whole);
-  result.count_on(near);
-  return result;
+  return newton_rubbing_on(solver_->system, rubbing_, near, usual, scale_, observer_);
 }
 
 /// Minimises at frozen normal forces, facing points and tangents, which are then taken from the
@@ -267,7 +236,7 @@ NewtonResult SolidProblem::solve_frozen(const Vector& guess) {
   NewtonResult result;
   Vector reactions;
   for (int pass = 0; pass < max_passes; ++pass) {
-    freeze(pass == 0 ? state() : result.x);
+    rubbing_.freeze(pass == 0 ? state() : result.x);
     const NewtonResult before = result;
     result = newton(solver_->system, pass == 0 ? guess : before.x,
                     options(frozen_tolerance, frozen_tolerance), observer_);
@@ -280,14 +249,6 @@ NewtonResult SolidProblem::solve_frozen(const Vector& guess) {
     reactions = std::move(now);
   }
   return result;
-}
-
-bool SolidProblem::stiffen_contact() {
-  const double overlap = effects_.contact->max_penetration();
-  if (overlap <= parameters_.penetration) return false;
-  effects_.contact->law().stiffness *=
-      std::clamp(1.5 * overlap / parameters_.penetration, 1.5, 4.0);
-  return true;
 }
 
 StepRow SolidProblem::accept(const NewtonResult& result, double t) {

@@ -10,6 +10,7 @@
 #include "mechanics/path.h"
 #include "solid3d/effects.h"
 #include "solid3d/effects/load.h"
+#include "solid3d/rubbing.h"
 #include "solid3d/section_motion.h"
 
 namespace bight::solid3d {
@@ -115,8 +116,6 @@ class SolidProblem final : private PathModel {
   NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_frozen(const Vector& guess);
   NewtonOptions options(double force_tolerance, double energy_tolerance) const;
-  bool stiffen_contact();
-  void freeze(const Vector& x);
   Vector held(Vector x, double t) const;
   Vector follow_moves(double t) const;
   void changed();
@@ -131,8 +130,8 @@ class SolidProblem final : private PathModel {
   std::unique_ptr<Solver> solver_;  ///< for the present supports
   double scale_;                    ///< of forces [E D^2]
   std::vector<Station> history_;    ///< the last accepted states, newest last
-  Vector gradient_;                 ///< by coordinates, at the newest
-  Vector frozen_at_;
+  Rubbing rubbing_{effects_, history_};
+  Vector gradient_;  ///< by coordinates, at the newest
   double energy_ = 0;
   NewtonObserver observer_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -270,4 +270,11 @@ double Contact::max_penetration() const {
   return deepest;
 }
 
+bool Contact::stiffen(double bound) {
+  const double overlap = max_penetration();
+  if (overlap <= bound) return false;
+  law_.stiffness *= std::clamp(1.5 * overlap / bound, 1.5, 4.0);
+  return true;
+}
+
 }  // namespace bight::solid3d

@@ -47,6 +47,8 @@ class Contact : public Effect {
   void project_all(const Vector& x);
   /// Largest overlap now [D].
   double max_penetration() const;
+  /// Where strands overlap more than the bound [D]: makes contact stiffer; false where they do not.
+  bool stiffen(double bound);
 
   const ContactSurface& surface() const { return surface_; }
 

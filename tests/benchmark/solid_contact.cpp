@@ -1,14 +1,19 @@
 // Touching strands against closed forms, and what they cost: `solid_contact CASE CELLS ...` runs a
-// case of tests/solid3d/touching_rods.h for each number of cells a section.
+// case of the headers below, those of tests/solid3d/touching_rods.cpp, for each number of cells a
+// section.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <map>
 #include <string>
 
-#include "tests/solid3d/touching_rods.h"
+#include "tests/solid3d/bore_patch.h"
+#include "tests/solid3d/clasps.h"
+#include "tests/solid3d/pressed_cylinders.h"
+#include "tests/solid3d/rubbing_rods.h"
 
 using namespace bight;
 

@@ -233,7 +233,7 @@ TEST_CASE("friction of the solid holds the knot, and work goes into energy and d
 
 TEST_CASE("the paper's loose rod, soft in bending, is relaxed in a few iterations") {
   // T = 3e-5 E D^2: the sweep's volume errors store more than bending does, and forces are
-  // round-off at what would be 1e-8 T.
+  // round-off at what would be 1e-8 T. The section of 12 cells bends 1 % too stiff.
   const double loose_length = 2213 / 8.3, ebar = 200;
   const rod1d::RodState loose = rod_at(ebar, loose_length);
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, loose);
@@ -243,7 +243,7 @@ TEST_CASE("the paper's loose rod, soft in bending, is relaxed in a few iteration
   const auto result = solid3d::run_solid(mesh, sweep(mesh, loose), ebar, parameters);
   REQUIRE(result.outcome.status == PathStatus::finished);
   CHECK(result.steps[0].newton_iterations <= 12);
-  CHECK(result.steps[0].tension == Approx(loose.tension).epsilon(0.02));
+  CHECK(result.steps[0].tension == Approx(loose.tension).epsilon(0.0125));
 }
 
 TEST_CASE("one half of a figure-eight with its inversion is as tight as the whole",

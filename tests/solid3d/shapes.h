@@ -10,7 +10,7 @@ namespace bight::test {
 /// Straight rod of equal layers; `axial` is the layer spacing over the section cell width.
 inline solid3d::Mesh straight_mesh(int section_cells, double length, double axial) {
   const solid3d::Section section = solid3d::make_section(section_cells);
-  const double width = std::sqrt(section.area() / static_cast<double>(section.quads.size()));
+  const double width = section.cell_width();
   const int count = std::max(2, static_cast<int>(std::lround(length / (axial * width))));
   std::vector<double> s;
   for (int k = 0; k <= count; ++k) s.push_back(length * k / count);

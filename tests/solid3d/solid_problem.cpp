@@ -1,6 +1,7 @@
 #include "solid3d/solid_problem.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/solid3d/touching_rods.h"
 

@@ -1,6 +1,11 @@
-#include "tests/solid3d/touching_rods.h"
-
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/solid3d/bore_patch.h"
+#include "tests/solid3d/clasps.h"
+#include "tests/solid3d/pressed_cylinders.h"
+#include "tests/solid3d/rubbing_rods.h"
 
 using namespace bight;
 
