@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/read_table.h"
@@ -29,6 +32,20 @@ youngs_modulus = "1.25 MPa"
 section_elements = 12
 )";
 constexpr double diameter = 8.3e-3;  ///< of that rod [m]
+
+inline Settings operator+(Settings settings, const Settings& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+/// The same rod, but for its size and stiffness.
+inline Settings scaled(double D, double E) {
+  return {fmt::format("rod.diameter={:.17g}", D), fmt::format("rod.length={:.17g}", 42 * D),
+          fmt::format("material.youngs_modulus={:.17g}", E)};
+}
+
+inline const std::vector<std::pair<double, double>> extremes = {
+    {1e-6, 1}, {1e-6, 1e12}, {1, 1}, {1, 1e12}};  ///< D [m] and E [Pa]
 
 /// What one fidelity of a run has left: its part of summary.json and its force.csv.
 struct Result {
@@ -155,6 +172,16 @@ inline void same_as(const Result& gentler, const Result& result, double force, d
                   of_force, force, of_energy, energy));
   CHECK(of_force <= force);
   CHECK(of_energy <= energy);
+}
+
+/// Tbar is the same to 1e-6 whatever D and E.
+inline void same_tbar(const Result& a, const Result& b) {
+  REQUIRE(a.states() == b.states());
+  double worst = 0;
+  for (size_t i = 0; i < a.states(); ++i)
+    worst = std::max(worst, std::abs(a.tbar(i) / b.tbar(i) - 1));
+  say(fmt::format("Tbar differs by {:.1g}", worst));
+  CHECK(worst <= 1e-6);
 }
 
 }  // namespace hard

@@ -1,16 +1,11 @@
-// Scenes on which a run could well go wrong. None is known to the code that is to run them.
+// Scenes of the rod on which a run could well go wrong; hard_solid.cpp has those of the solid. None
+// is known to the code that is to run them.
 //
 // `./bight test --hard` runs all of them and prints what each measured; those that take less than
 // about two seconds belong to every test run.
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <random>
 
-#include "call.h"
 #include "coupling/read_centerline.h"
 #include "hard_case.h"
 #include "rod1d/polyline.h"
@@ -20,11 +15,6 @@ using bight::Polyline;
 using bight::Vector3;
 
 namespace {
-
-Settings operator+(Settings settings, const Settings& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
-  return settings;
-}
 
 /// Writes a knot.centerline [m], and the settings that begin with it.
 Settings begin_with(const TemporaryFolder& folder, const Polyline& line) {
@@ -39,25 +29,6 @@ Polyline recorded(const Result& result, const std::string& ebar) {
   Polyline line = bight::coupling::read_centerline(file);
   for (Vector3& p : line) p *= diameter;
   return line;
-}
-
-/// The same rod, but for its size and stiffness.
-Settings scaled(double D, double E) {
-  return {fmt::format("rod.diameter={:.17g}", D), fmt::format("rod.length={:.17g}", 42 * D),
-          fmt::format("material.youngs_modulus={:.17g}", E)};
-}
-
-const std::vector<std::pair<double, double>> extremes = {
-    {1e-6, 1}, {1e-6, 1e12}, {1, 1}, {1, 1e12}};  ///< D [m] and E [Pa]
-
-/// Tbar is the same to 1e-6 whatever D and E.
-void same_tbar(const Result& a, const Result& b) {
-  REQUIRE(a.states() == b.states());
-  double worst = 0;
-  for (size_t i = 0; i < a.states(); ++i)
-    worst = std::max(worst, std::abs(a.tbar(i) / b.tbar(i) - 1));
-  say(fmt::format("Tbar differs by {:.1g}", worst));
-  CHECK(worst <= 1e-6);
 }
 
 /// The loose overhand knot that is wound round itself `turns` times, in D: as overhand.cpp lays it
@@ -92,8 +63,6 @@ Polyline overhand_of(int turns, double R, double length) {
 }
 
 }  // namespace
-
-// The rod.
 
 TEST_CASE("hard: rod, steps of 10 in ebar", "[.hard]") {
   const Settings rod = {"path.ebar=[28, -10]", "path.record=[18, 8, -2, -10]"};
@@ -233,132 +202,4 @@ TEST_CASE("hard: rod, pulled by forces of three decades", "[.hard]") {
   const Result pulled =
       run("rod", {"path.force=[\"0.02 N\", \"1 N\", \"50 N\"]", "rod.length=1 m"});
   must_hold(pulled, {.balance = 0});
-}
-
-// The solid, with 12 cells a section.
-
-TEST_CASE("hard: solid to ebar -10", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, -10]"}));
-}
-
-TEST_CASE("hard: solid to ebar -10, steps of 10", "[.hard]") {
-  const Settings solid = {"path.ebar=[20, -10]", "path.record=[20, 10, 0, -10]"};
-  const Result steps = run("solid", solid + Settings{"path.max_step=10"});
-  must_hold(steps, {.balance = 0});
-  // The strands come to rest in other ripples of a surface of 12 sides.
-  same_as(run("solid", solid), steps, 0.025, 2e-3);
-}
-
-TEST_CASE("hard: solid to ebar -10 with mu = 1.0", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, -10]", "effects.friction=1.0"}), {.balance = 0.02});
-}
-
-TEST_CASE("hard: solid, K/mu_s = 1e5", "[.hard]") {
-  const Settings solid = {"path.ebar=[20, 5]", "path.record=[20, 10, 5]"};
-  const Result stiff = run("solid", solid + Settings{"material.bulk_to_shear=1e5"});
-  must_hold(stiff);
-  same_as(run("solid", solid), stiff, 0.005, 2e-3);
-}
-
-TEST_CASE("hard: solid, nu = 0", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, 0]", "material.poissons_ratio=0", "path.max_step=1",
-                          "material.model=compressible-neo-hookean"}));
-}
-
-TEST_CASE("hard: solid, cells four times as long as wide", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, 5]", "solid3d.axial_ratio=4"}));
-}
-
-TEST_CASE("hard: solid whose start overlaps by 10 % D", "[.hard]") {
-  const Settings solid = {"path.ebar=[16, 14]"};
-  const Result overlapping = run("solid", solid + Settings{"rod1d.penetration=0.1"});
-  must_hold(overlapping);
-  same_as(run("solid", solid), overlapping, 2e-3, 2e-3);
-}
-
-TEST_CASE("hard: solid of 15.66 D", "[.hard]") {
-  must_hold(run("solid", {"rod.length=129.978 mm", "path.ebar=[9.58, 0]"}));
-}
-
-TEST_CASE("hard: solid, reduced elements, to ebar -10", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, -10]", "solid3d.element=reduced-hybrid"}));
-}
-
-TEST_CASE("hard: solid, tightened and loosened again without friction", "[.hard]") {
-  const Result back = run("solid", {"path.ebar=[16, 2, 16]"});
-  must_hold(back);
-  REQUIRE(back.states() == 3);
-  say(fmt::format("Tbar {:.6g} before, {:.6g} after", back.tbar(0), back.tbar(2)));
-  CHECK(back.tbar(2) == Approx(back.tbar(0)).epsilon(1e-3));
-}
-
-TEST_CASE("hard: solid, three cycles of tightening and loosening with mu = 0.32", "[.hard]") {
-  const Result cycles =
-      run("solid", {"effects.friction=0.32", "path.ebar=[14, 12, 14, 12, 14, 12]"});
-  must_hold(cycles, {.balance = 0.02});
-}
-
-TEST_CASE("hard: solid of 1 um and 1 m, of 1 Pa and 1 TPa", "[.hard]") {
-  const Settings solid = {"path.ebar=[18, 17]"};
-  const Result common = run("solid", solid + scaled(1e-2, 1e6));
-  must_hold(common, {.balance = 0});
-  for (const auto& [D, E] : extremes) same_tbar(run("solid", solid + scaled(D, E)), common);
-}
-
-TEST_CASE("hard: solid with mu = 0.32, one thread and two", "[.hard]") {
-  const Settings solid = {"path.ebar=[14, 12]", "effects.friction=0.32"};
-  const Result one = run("solid", solid, 1), two = run("solid", solid, 2);
-  must_hold(one, {.balance = 0.02});
-  must_hold(two, {.balance = 0.02});
-  same_as(one, two, 1e-6, 1e-6);
-}
-
-TEST_CASE("hard: solid with mu = 0.2, killed at ten random moments and resumed", "[.hard]") {
-  using Clock = std::chrono::steady_clock;
-  const TemporaryFolder folder;
-  const auto file = folder.write("scene.toml", scene);
-  const auto begin = [&](const std::string& out, bool again) {
-    const pid_t child = fork();
-    if (child == 0) {
-      execl(BIGHT_PROGRAM, "bight", "solid", file.c_str(), "--out", out.c_str(), "--quiet", "--set",
-            "path.ebar=[18, 16]", "--set", "path.max_step=0.2", "--set", "effects.friction=0.2",
-            "--threads", "1", again ? "--resume" : nullptr, nullptr);
-      _exit(127);
-    }
-    return child;
-  };
-  const std::string whole = folder / "whole";
-  const auto began = Clock::now();
-  int status = 0;
-  waitpid(begin(whole, false), &status, 0);
-  const std::chrono::duration<double> takes = Clock::now() - began;
-  const Result undisturbed = read_result(whole, "solid");
-  must_hold(undisturbed, {.balance = 0.02});
-
-  std::mt19937 random(10);
-  std::uniform_real_distribution<double> moment(0.05, 0.6);
-  int kills = 0, whole_runs = 0;
-  while (kills < 10) {
-    const std::string out = folder / fmt::format("cut_{}", ++whole_runs);
-    for (bool again = false;; again = true) {
-      const pid_t child = begin(out, again);
-      const auto last =
-          Clock::now() + std::chrono::duration<double>(moment(random) * takes.count());
-      bool ended = false;
-      while (!ended && (Clock::now() < last || kills == 10))
-        usleep(10000), ended = waitpid(child, &status, WNOHANG) == child;
-      if (ended) break;
-      kill(child, SIGKILL);
-      waitpid(child, &status, 0);
-      ++kills;
-    }
-    REQUIRE(WEXITSTATUS(status) == 0);
-    const Result cut = read_result(out, "solid");
-    REQUIRE(cut.force.rows.size() == undisturbed.force.rows.size());
-    for (size_t i = 0; i < cut.force.rows.size(); ++i)
-      for (const std::string& column : cut.force.names)
-        if (column != "wall_s")
-          CHECK(cut.of(i, column.c_str()) == undisturbed.of(i, column.c_str()));
-  }
-  say(fmt::format("{} kills on the way to {} results, all the same", kills, whole_runs));
 }
