@@ -29,7 +29,8 @@ bool finished(const fs::path& folder) {
 bool nothing_of_a_run(const fs::path& folder) {
   return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename();
-    return name == "runs" || name == "study.csv" || name == "study.json" || name == "report.html";
+    return name == "runs" || name == "study.csv" || name == "study_states.csv" ||
+           name == "study.json" || name == "report.html";
   });
 }
 

@@ -120,7 +120,8 @@ ExitStatus study(const Study& plan, const StudyOptions& options) {
   say(fmt::format("{} runs, {} of them done\n", plan.points.size(),
                   plan.points.size() - points.size()));
   if (!options.jobs.empty() || !options.slurm.empty()) {
-    if (jobs.empty()) say("nothing is left to run: call it without --jobs and --slurm to collect\n");
+    if (jobs.empty())
+      say("nothing is left to run: call it without --jobs and --slurm to collect\n");
     return done;
   }
 
@@ -145,6 +146,7 @@ ExitStatus study(const Study& plan, const StudyOptions& options) {
       rows.push_back(std::move(row));
   const std::vector<StudyCase> cases = study_cases(plan.grid, plan.points, rows, plan.extrapolate);
   write_study_csv(plan.folder / "study.csv", plan, rows);
+  write_states_csv(plan.folder / "study_states.csv", plan, rows, cases);
   write_study_json(plan.folder / "study.json", plan, rows, cases);
   for (const StudyCase& of : cases)
     for (const std::string& sentence : sentences(plan, rows, of)) say(sentence + '\n');

@@ -158,14 +158,14 @@ RecordedStates judge_reference(const Analysis& a, const std::string& extrapolate
   return reference;
 }
 
-void measure(const Analysis& a, const RecordedStates& reference, StudyCase& of) {
+void measure(const Analysis& a, StudyCase& of) {
   const StudyRow& finest_row = a.rows[*of.reference];
   std::vector<Tradeoff> tradeoffs;
   std::vector<size_t> candidates;
   for (const size_t i : of.rows) {
     StudyRow& row = a.rows[i];
     row.reference = i == *of.reference;
-    row.error = error_against(row.states, reference);
+    row.error = error_against(row.states, of.reference_states);
     if (row.error && !row.reference) {
       const auto curvature = compare_centerlines(finest_row.folder, row.folder);
       double sum = 0;
@@ -181,6 +181,15 @@ void measure(const Analysis& a, const RecordedStates& reference, StudyCase& of) 
     of.front.push_back(candidates[k]);
     a.rows[candidates[k]].on_front = true;
   }
+}
+
+std::vector<StudyCase::Gap> gaps(const RecordedStates& rod, const RecordedStates& solid) {
+  std::vector<StudyCase::Gap> result;
+  for (const auto& [when, state] : rod)
+    if (const auto twin = solid.find(when); twin != solid.end() && twin->second.force != 0)
+      result.push_back({state.ebar, state.force / twin->second.force - 1});
+  std::ranges::reverse(result);  // tightening
+  return result;
 }
 
 }  // namespace
@@ -223,8 +232,14 @@ std::vector<StudyCase> study_cases(const std::vector<Dimension>& grid,
   }
   for (StudyCase& of : cases) {
     of.reference = finest(a, of);
-    if (of.reference) measure(a, judge_reference(a, extrapolate, of), of);
+    if (!of.reference) continue;
+    of.reference_states = judge_reference(a, extrapolate, of);
+    measure(a, of);
   }
+  for (StudyCase& rod : cases)
+    for (const StudyCase& solid : cases)
+      if (rod.fidelity == "rod" && solid.fidelity == "solid" && rod.problem == solid.problem)
+        rod.from_solid = gaps(rod.reference_states, solid.reference_states);
   return cases;
 }
 

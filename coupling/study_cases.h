@@ -31,12 +31,21 @@ struct StudyCase {
   std::vector<std::string> problem;  ///< settings of the grid that are the problem's
   std::vector<size_t> rows;
   std::optional<size_t> reference;  ///< the finest row that finished
+  RecordedStates reference_states;  ///< what errors are measured against: its own, or their limit
   bool extrapolated = false;        ///< the reference is extrapolated from there
   std::vector<KeyOrder> orders;
   std::vector<KeyUncertainty> uncertainties;
   std::vector<size_t> front;  ///< rows, the cheapest first; T against seconds
 
   double uncertainty() const;  ///< of the reference in T: the sum over keys
+
+  /// Of the rod: how far its reference is from that of the solid of the same problem, which no
+  /// resolution mends.
+  struct Gap {
+    double ebar;
+    double force;  ///< T of the rod over that of the solid, less 1
+  };
+  std::vector<Gap> from_solid;  ///< at each ebar that both recorded, the largest first
 };
 
 /// Settings of a row's run that mean something to its fidelity and are not the problem's.

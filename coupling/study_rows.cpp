@@ -47,7 +47,8 @@ double relative(double value, double reference) {
 }  // namespace
 
 std::string run_status(const std::filesystem::path& folder) {
-  return read_summary(folder).value("status", "");
+  const Json summary = read_summary(folder);
+  return summary.is_object() ? summary.value("status", "") : "";
 }
 
 std::vector<StudyRow> read_rows(const std::filesystem::path& folder, size_t point,

@@ -75,6 +75,12 @@ std::vector<std::string> sentences(const Study& plan, const std::vector<StudyRow
       result.push_back(fmt::format("{} costs {:.3g} s with {}", percent, front[*best].seconds,
                                    choice(plan, rows[of.front[*best]])));
   }
+  if (!of.from_solid.empty()) {
+    std::vector<std::string> parts;
+    for (const StudyCase::Gap& gap : of.from_solid)
+      parts.push_back(fmt::format("{:+.2g} % at {:g}", 100 * gap.force, gap.ebar));
+    result.push_back(fmt::format("  its T against that of the solid: {}", fmt::join(parts, ", ")));
+  }
   return result;
 }
 
@@ -100,6 +106,35 @@ void write_study_csv(const std::filesystem::path& file, const Study& plan,
                         row.error ? cell(row.error->curvature_mean) : "");
     text += fmt::format(",{:.9g},{:.9g},{},{:.9g},{},{},{}\n", row.wall_s, row.cpu_s, row.unknowns,
                         row.peak_MB, row.steps, row.iterations, cell(row.reason));
+  }
+  write_whole(file, text);
+}
+
+void write_states_csv(const std::filesystem::path& file, const Study& plan,
+                      const std::vector<StudyRow>& rows, const std::vector<StudyCase>& cases) {
+  std::string text = "run";
+  for (const Dimension& dimension : plan.grid) text += fmt::format(",{}", dimension.key->path);
+  text += ",fidelity,ebar,time,force_normalised,energy_J,error_force,error_force_solid\n";
+  for (const StudyCase& of : cases) {
+    const auto solid = std::ranges::find_if(cases, [&](const StudyCase& other) {
+      return other.fidelity == "solid" && other.problem == of.problem;
+    });
+    for (const size_t row : of.rows)
+      for (const auto& [when, state] : rows[row].states) {
+        const auto error = [&](const RecordedStates& reference) -> std::optional<double> {
+          const auto twin = reference.find(when);
+          if (twin == reference.end() || twin->second.force == 0) return std::nullopt;
+          return state.force / twin->second.force - 1;
+        };
+        const GridPoint& point = plan.points[rows[row].point];
+        text += cell(point.name);
+        for (size_t d = 0; d < plan.grid.size(); ++d)
+          text += ',' + cell(plan.grid[d].values[point.at[d]]);
+        text +=
+            fmt::format(",{},{:.9g},{},{:.9g},{:.9g},{},{}\n", of.fidelity, when.first, when.second,
+                        state.force, state.energy, cell(error(of.reference_states)),
+                        solid == cases.end() ? "" : cell(error(solid->reference_states)));
+      }
   }
   write_whole(file, text);
 }
@@ -133,6 +168,8 @@ void write_study_json(const std::filesystem::path& file, const Study& plan,
       json["pareto_front"].push_back({{"run", plan.points[rows[row].point].name},
                                       {"seconds", rows[row].seconds()},
                                       {"error_force_largest", rows[row].error->force_largest}});
+    for (const StudyCase::Gap& gap : of.from_solid)
+      json["from_solid"].push_back({{"ebar", gap.ebar}, {"force", gap.force}});
     json["sentences"] = sentences(plan, rows, of);
     result["cases"].push_back(json);
   }

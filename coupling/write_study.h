@@ -17,6 +17,11 @@ std::vector<std::string> sentences(const Study& plan, const std::vector<StudyRow
 void write_study_csv(const std::filesystem::path& file, const Study& plan,
                      const std::vector<StudyRow>& rows);
 
+/// A row for each recorded state of each run: T, energy, and how far T is from its reference and
+/// from that of the solid of the same problem.
+void write_states_csv(const std::filesystem::path& file, const Study& plan,
+                      const std::vector<StudyRow>& rows, const std::vector<StudyCase>& cases);
+
 /// The cases: reference, its uncertainty, observed orders, Pareto front, sentences.
 void write_study_json(const std::filesystem::path& file, const Study& plan,
                       const std::vector<StudyRow>& rows, const std::vector<StudyCase>& cases);

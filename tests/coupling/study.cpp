@@ -61,6 +61,7 @@ TEST_CASE("a study runs its grid, measures it, and runs nothing twice") {
   const std::string csv = text_of(folder / "s/study.csv");
   CHECK(lines(csv) == 5);
   CHECK(csv.starts_with("run,rod1d.segments,path.max_step,fidelity,status,reference"));
+  CHECK(lines(text_of(folder / "s/study_states.csv")) == 1 + 4 * 3);
   CHECK(csv.find("\"rod1d.segments=60,path.max_step=0.5\",60,0.5,rod,finished,0") !=
         std::string::npos);
   const auto json = study_json(folder, "s");

@@ -106,6 +106,31 @@ TEST_CASE("keys of the solid do not make another rod") {
   CHECK(resolution_settings(made.grid, made.points[0], "solid").size() == 2);
 }
 
+TEST_CASE("the rod's reference is held against the solid's of the same problem") {
+  MadeUp made(lines);
+  const size_t rods = made.rows.size();
+  for (size_t i = 0; i < rods; ++i) {
+    StudyRow solid = made.rows[i];
+    solid.fidelity = "solid";
+    for (auto& [when, state] : solid.states) state.force *= 1 - 1 / state.ebar;
+    solid.states.erase({20, 1});
+    made.rows.push_back(solid);
+  }
+  const auto cases = study_cases(made.grid, made.points, made.rows, "");
+  REQUIRE(cases.size() == 4);
+  for (const StudyCase& of : cases) {
+    if (of.fidelity == "solid") {
+      CHECK(of.from_solid.empty());
+      continue;
+    }
+    REQUIRE(of.from_solid.size() == 2);
+    CHECK(of.from_solid[0].ebar == 10);
+    CHECK(of.from_solid[1].ebar == 5);
+    CHECK(of.from_solid[0].force == Approx(1 / 0.9 - 1));
+    CHECK(of.from_solid[1].force == Approx(1 / 0.8 - 1));
+  }
+}
+
 TEST_CASE("orders are taken from values a factor of two apart") {
   MadeUp made({"effects.friction=0", "rod1d.segments=10,14,20,28,40", "path.max_step=1"});
   const auto cases = study_cases(made.grid, made.points, made.rows, "");
