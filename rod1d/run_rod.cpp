@@ -130,13 +130,15 @@ Polyline start_of(const RodParameters& parameters, const RodObserver& observer) 
 /// everywhere against the path's direction from its first state on [D].
 constexpr double mobilising = 2;
 
-/// Where the path is entered from: the first waypoint, or with friction from a little before it.
+/// Where the path is entered from: the first waypoint, or with friction from a little before it, as
+/// far as a short rod has room for its knot there.
 double approach(const RodParameters& parameters) {
   const std::vector<double>& waypoints = parameters.path.waypoints;
   const double first = waypoints.front();
   if (parameters.friction == 0) return first;
   const bool loosens = waypoints.size() > 1 && waypoints[1] > first;
-  return loosens ? first - mobilising : first + mobilising;
+  if (loosens) return first - mobilising;
+  return std::clamp(parameters.length - shortest_reach, first, first + mobilising);
 }
 
 /// From the start's own ebar to the first waypoint.

@@ -252,3 +252,21 @@ TEST_CASE("weak friction splits the curve of a loose knot by mu times the contac
   CHECK(0.5 * (up - down) == Approx(0.05 * contact).epsilon(0.03));
   CHECK(0.5 * (up + down) == Approx(none.steps.back().tension).epsilon(0.03));
 }
+
+TEST_CASE("friction acts in a short rod from where there is room for its knot") {
+  // 130 mm: 2 D before the path begins, its ends would be 2.2 D apart.
+  RodParameters parameters;
+  parameters.length = 130 / 8.3;
+  parameters.segments = 126;
+  parameters.path.waypoints = {11.5, 11};
+  const RodResult none = run_rod(parameters);
+  parameters.friction = 0.32;
+  parameters.twist = true;
+  const RodResult whole = run_rod(parameters);
+  parameters.path.waypoints = {11};
+  const RodResult end = run_rod(parameters);
+  for (const RodResult* result : std::initializer_list<const RodResult*>{&none, &whole, &end})
+    REQUIRE(result->outcome.status == PathStatus::finished);
+  CHECK(whole.steps.back().tension > 1.5 * none.steps.back().tension);
+  CHECK(end.steps.back().tension == Approx(whole.steps.back().tension).epsilon(0.01));
+}
