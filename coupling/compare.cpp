@@ -37,6 +37,21 @@ std::optional<double> Comparison::Row::difference(size_t i) const {
   return *force[i] / *force[0] - 1;
 }
 
+bool Comparison::has_spread(size_t i) const {
+  return std::ranges::any_of(rows, [&](const Row& row) { return row.spread[i].has_value(); });
+}
+
+std::optional<double> Comparison::within_spread(size_t i, size_t measured) const {
+  int known = 0, inside = 0;
+  for (const Row& row : rows) {
+    if (!row.force[i] || !row.spread[measured]) continue;
+    ++known;
+    inside += std::abs(*row.force[i] - *row.force[measured]) <= *row.spread[measured];
+  }
+  if (known == 0) return std::nullopt;
+  return static_cast<double>(inside) / known;
+}
+
 Comparison compare(const std::vector<ForceCurve>& curves, double friction) {
   Comparison result;
   std::map<std::pair<int, bool>, std::vector<ForceCurve>> matched;  // by turn and direction
@@ -52,8 +67,11 @@ Comparison compare(const std::vector<ForceCurve>& curves, double friction) {
   }
   for (const auto& [turn, group] : matched)
     for (const double ebar : axis(group, turn.second)) {
-      Comparison::Row row{ebar, turn.second, {}, loose_knot_law(ebar, friction, turn.second)};
-      for (const ForceCurve& leg : group) row.force.push_back(force_at(leg, ebar));
+      Comparison::Row row{ebar, turn.second, {}, {}, loose_knot_law(ebar, friction, turn.second)};
+      for (const ForceCurve& leg : group) {
+        row.force.push_back(force_at(leg, ebar));
+        row.spread.push_back(spread_at(leg, ebar));
+      }
       result.rows.push_back(row);
     }
   return result;
@@ -83,12 +101,16 @@ void write_comparison(const std::filesystem::path& file, const Comparison& compa
   text += ",loose_knot_law";
   for (size_t i = 1; i < comparison.names.size(); ++i)
     text += "," + comparison.names[i] + "_difference";
+  for (size_t i = 0; i < comparison.names.size(); ++i)
+    if (comparison.has_spread(i)) text += "," + comparison.names[i] + "_spread";
   text += '\n';
   for (const Comparison::Row& row : comparison.rows) {
     text += fmt::format("{:.12g},{}", row.ebar, row.tightening ? 1 : 0);
     for (const auto& force : row.force) text += cell(force);
     text += cell(row.law);
     for (size_t i = 1; i < comparison.names.size(); ++i) text += cell(row.difference(i));
+    for (size_t i = 0; i < comparison.names.size(); ++i)
+      if (comparison.has_spread(i)) text += cell(row.spread[i]);
     text += '\n';
   }
   write_whole(file, text);
@@ -125,6 +147,12 @@ std::string comparison_text(const Comparison& comparison, size_t rows) {
     }
     text += '\n';
   }
+  for (size_t measured = 0; measured < comparison.names.size(); ++measured)
+    for (size_t i = 0; i < comparison.names.size(); ++i)
+      if (const auto inside = comparison.within_spread(i, measured); inside && i != measured)
+        text +=
+            fmt::format("{} lies inside the spread of {} at {:.0f} % of the ebar that both have\n",
+                        comparison.names[i], comparison.names[measured], 100 * *inside);
   return text;
 }
 

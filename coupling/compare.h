@@ -17,13 +17,19 @@ struct Comparison {
   struct Row {
     double ebar = 0;
     bool tightening = true;
-    std::vector<std::optional<double>> force;  ///< Tbar, one per curve
-    std::optional<double> law;                 ///< loose-knot law
+    std::vector<std::optional<double>> force;   ///< Tbar, one per curve
+    std::vector<std::optional<double>> spread;  ///< of a measured one
+    std::optional<double> law;                  ///< loose-knot law
     /// Relative difference of curve i from the first one.
     std::optional<double> difference(size_t i) const;
   };
   std::vector<std::string> names;
   std::vector<Row> rows;
+
+  bool has_spread(size_t i) const;
+  /// Part of the rows, of those where both are known, in which curve i lies inside the spread of
+  /// the measured one.
+  std::optional<double> within_spread(size_t i, size_t measured) const;
 };
 
 /// Lays the k-th tightening (loosening) legs of all curves on each other, at every ebar that any of

@@ -64,11 +64,16 @@ std::vector<ForceCurve> legs(const ForceCurve& curve) {
   const std::vector<size_t> ends = turns(curve.ebar);
   for (size_t k = 0; k + 1 < ends.size(); ++k) {
     const double direction = curve.ebar[ends[k + 1]] - curve.ebar[ends[k]];
-    ForceCurve leg{curve.name, {curve.ebar[ends[k]]}, {curve.force[ends[k]]}};
-    for (size_t i = ends[k] + 1; i <= ends[k + 1]; ++i) {
-      if ((curve.ebar[i] - leg.ebar.back()) * direction <= 0) continue;
+    ForceCurve leg{curve.name, {}, {}, {}};
+    const auto take = [&](size_t i) {
       leg.ebar.push_back(curve.ebar[i]);
       leg.force.push_back(curve.force[i]);
+      if (!curve.spread.empty()) leg.spread.push_back(curve.spread[i]);
+    };
+    take(ends[k]);
+    for (size_t i = ends[k] + 1; i <= ends[k + 1]; ++i) {
+      if ((curve.ebar[i] - leg.ebar.back()) * direction <= 0) continue;
+      take(i);
     }
     result.push_back(std::move(leg));
   }
@@ -88,6 +93,11 @@ std::optional<double> force_at(const ForceCurve& leg, double ebar) {
            leg.force[i + 1] * t * t * (3 - 2 * t) + m1 * t * t * (t - 1);
   }
   return std::nullopt;
+}
+
+std::optional<double> spread_at(const ForceCurve& leg, double ebar) {
+  if (leg.spread.empty()) return std::nullopt;
+  return force_at({leg.name, leg.ebar, leg.spread, {}}, ebar);
 }
 
 std::optional<double> loose_knot_law(double ebar, double friction, bool tightening) {

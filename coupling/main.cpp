@@ -24,8 +24,10 @@ ExitStatus compare_sources(const Command& command) {
   std::vector<ForceCurve> curves;
   std::vector<std::pair<std::string, std::filesystem::path>> folders;
   double friction = 0;
+  std::optional<Scales> scales;  // of the first rod
   for (const auto& source : command.sources) {
-    for (ForceCurve& curve : read_curves(source)) curves.push_back(std::move(curve));
+    if (!scales) scales = read_scales(source);
+    for (ForceCurve& curve : read_curves(source, scales)) curves.push_back(std::move(curve));
     for (auto& folder : fidelity_folders(source)) folders.push_back(std::move(folder));
     if (const auto of_source = read_friction(source)) friction = *of_source;
   }

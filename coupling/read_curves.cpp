@@ -4,24 +4,13 @@
 
 #include "coupling/errors.h"
 #include "coupling/files.h"
-#include "coupling/read_table.h"
+#include "coupling/read_measured.h"
+#include "coupling/scene.h"
 
 namespace bight::coupling {
 namespace {
 
 namespace fs = std::filesystem;
-
-ForceCurve read_curve(const fs::path& file, const std::string& name) {
-  const Table table = read_table(file);
-  const int ebar = table.column("ebar"), force = table.column("force_normalised");
-  ForceCurve curve{name, {}, {}};
-  for (const auto& row : table.rows) {
-    curve.ebar.push_back(row[ebar]);
-    curve.force.push_back(row[force]);
-  }
-  if (curve.ebar.empty()) throw InputError(file.string() + ": no rows");
-  return curve;
-}
 
 std::string folder_name(const fs::path& folder) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
@@ -30,12 +19,14 @@ std::string folder_name(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<ForceCurve> read_curves(const fs::path& source) {
+std::vector<ForceCurve> read_curves(const fs::path& source, const std::optional<Scales>& scales) {
   if (!fs::exists(source)) throw InputError(source.string() + ": there is no such file or folder");
-  if (!fs::is_directory(source)) return {read_curve(source, source.stem().string())};
+  if (!fs::is_directory(source)) return {read_measured(source, scales)};
   std::vector<ForceCurve> curves;
-  for (const auto& [name, folder] : fidelity_folders(source))
-    curves.push_back(read_curve(folder / "force.csv", name));
+  for (const auto& [name, folder] : fidelity_folders(source)) {
+    curves.push_back(read_measured(folder / "force.csv", scales));
+    curves.back().name = name;
+  }
   if (curves.empty())
     throw InputError(source.string() + ": no rod/force.csv and no solid/force.csv");
   return curves;
@@ -47,6 +38,11 @@ std::vector<std::pair<std::string, fs::path>> fidelity_folders(const fs::path& s
     if (fs::exists(source / fidelity / "force.csv"))
       folders.emplace_back(folder_name(source) + "_" + fidelity, source / fidelity);
   return folders;
+}
+
+std::optional<Scales> read_scales(const fs::path& source) {
+  if (!fs::is_regular_file(source / "scene.toml")) return std::nullopt;
+  return read_scene(source / "scene.toml", {}).scales();
 }
 
 std::optional<double> read_friction(const fs::path& source) {

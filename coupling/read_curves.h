@@ -7,12 +7,17 @@
 #include <vector>
 
 #include "coupling/force_curve.h"
+#include "coupling/units.h"
 
 namespace bight::coupling {
 
-/// The force curves of a results folder (rod, solid), or the one of a measured CSV file with
-/// columns ebar and force_normalised. Throws InputError when there is none.
-std::vector<ForceCurve> read_curves(const std::filesystem::path& source);
+/// The force curves of a results folder (rod, solid), or the one of a measured CSV file (see
+/// read_measured.h). Throws InputError when there is none.
+std::vector<ForceCurve> read_curves(const std::filesystem::path& source,
+                                    const std::optional<Scales>& scales = {});
+
+/// Scales of the rod of a results folder; nothing for a measured file.
+std::optional<Scales> read_scales(const std::filesystem::path& source);
 
 /// Folders with centerline files in a results folder, by the names that their force curves have.
 std::vector<std::pair<std::string, std::filesystem::path>> fidelity_folders(

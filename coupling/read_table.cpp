@@ -47,12 +47,12 @@ std::optional<double> number(std::string_view cell) {
   return value;
 }
 
+}  // namespace
+
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
 }
-
-}  // namespace
 
 bool Table::has(const std::string& name) const {
   return std::ranges::find(names, name) != names.end();
@@ -86,6 +86,7 @@ Table read_table(const std::filesystem::path& file) {
       if (const auto value = number(cell)) row.push_back(*value);
     const bool header = row.empty() && table.rows.empty() && table.names.empty();
     if (header) {
+      table.titles = cells;
       for (const std::string& cell : cells) table.names.push_back(lower(cell));
       continue;
     }

@@ -130,7 +130,8 @@ Json report_data(const fs::path& folder, const std::vector<fs::path>& measured, 
                      ": no result: no rows in rod/force.csv or solid/force.csv, no study.csv");
   std::vector<ForceCurve> measurements;
   for (const fs::path& file : measured)
-    for (ForceCurve& curve : read_curves(file)) measurements.push_back(std::move(curve));
+    for (ForceCurve& curve : read_curves(file, read_scales(folder)))
+      measurements.push_back(std::move(curve));
 
   const std::string scene_text = text_of(folder / "scene.toml");
   Json data = {{"folder", folder.lexically_normal().string()},
@@ -156,8 +157,10 @@ Json report_data(const fs::path& folder, const std::vector<fs::path>& measured, 
     data["notes"] = notes_of(folder / "run.log");
   }
   for (const ForceCurve& curve : measurements)
-    data["measured"].push_back(
-        {{"name", curve.name}, {"ebar", curve.ebar}, {"force_normalised", curve.force}});
+    data["measured"].push_back({{"name", curve.name},
+                                {"ebar", curve.ebar},
+                                {"force_normalised", curve.force},
+                                {"spread", curve.spread}});
   if (study)
     data["study"] = {{"csv", read_whole(folder / "study.csv")},
                      {"json", read_json(folder / "study.json")}};

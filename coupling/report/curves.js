@@ -67,6 +67,18 @@ export function curves(list, { log = false, dots = true } = {}) {
             strokeDasharray: dash,
             className: "curve",
           }),
+      measured
+        ? Plot.ruleX(
+            rows.filter((row) => row.spread > 0 && (!log || row[y] > row.spread)),
+            {
+              x: "ebar",
+              y1: (row) => row[y] - row.spread,
+              y2: (row) => row[y] + row.spread,
+              stroke: colour,
+              strokeOpacity: 0.5,
+            },
+          )
+        : null,
       dots && !measured && rows.length < 80
         ? Plot.dot(rows, { x: "ebar", y, fill: colour, r: 1.8 })
         : null,

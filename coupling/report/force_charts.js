@@ -16,7 +16,11 @@ export function force(result, log) {
       measured: true,
       text: of.name,
       colour: measuredColours[k % measuredColours.length],
-      rows: of.ebar.map((ebar, i) => ({ ebar, force_normalised: of.force_normalised[i] })),
+      rows: of.ebar.map((ebar, i) => ({
+        ebar,
+        force_normalised: of.force_normalised[i],
+        spread: of.spread[i] ?? 0,
+      })),
     }));
     const all = [...simulated, ...measured].flatMap((of) => of.rows);
     const values = all

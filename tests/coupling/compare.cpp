@@ -5,6 +5,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/read_curves.h"
+#include "coupling/read_measured.h"
 #include "temporary_folder.h"
 
 using namespace bight::coupling;
@@ -13,7 +14,7 @@ namespace {
 
 ForceCurve sampled(const std::string& name, double step, double (*force)(double), double from = 20,
                    double to = 5) {
-  ForceCurve curve{name, {}, {}};
+  ForceCurve curve{name, {}, {}, {}};
   for (double ebar = from; ebar >= to - 1e-9; ebar -= step) {
     curve.ebar.push_back(ebar);
     curve.force.push_back(force(ebar));
@@ -89,4 +90,56 @@ TEST_CASE("measured files are read by the names of their columns") {
   CHECK_THROWS_AS(read_curves(folder.write("b.csv", "ebar,force_normalised\n1,x\n")), InputError);
   CHECK_THROWS_AS(read_curves(folder.write("c.csv", "ebar,force_normalised\n1\n")), InputError);
   CHECK_THROWS_AS(read_curves(folder / "absent"), InputError);
+}
+
+TEST_CASE("a measurement in the units of the laboratory is laid on the rod's") {
+  const TemporaryFolder folder;
+  const Scales scales{8.3e-3, 1.25e6};
+  const auto file = folder.write(
+      "pull.csv", "\"force [mN]\";Temperature;Shortening (mm);spread_N\n1691;20;83;0,1691\n");
+  const ForceCurve curve = read_measured(file, scales);
+  CHECK(curve.ebar[0] == Approx(10));
+  // Tbar = 1 is 4 B/D^2, B = pi E D^4/64.
+  const double unit = 4 * M_PI * 1.25e6 * std::pow(8.3e-3, 2) / 64;
+  CHECK(curve.force[0] == Approx(1.691 / unit));
+  CHECK(curve.spread[0] == Approx(0.1691 / unit));
+  // A spread without a unit is in that of the force.
+  const auto same =
+      read_measured(folder.write("a.csv", "ebar,force_mN,spread\n9,200,10\n"), scales);
+  CHECK(same.spread[0] == Approx(0.01 / unit));
+
+  const auto refused = [&](const std::string& text, const std::optional<Scales>& with) {
+    try {
+      read_measured(folder.write("bad.csv", text), with);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto says = [](const std::string& message) { return Catch::Contains(message); };
+  CHECK_THAT(refused("ebar,force_N\n9,1\n", {}), says("give a results folder before the file"));
+  CHECK_THAT(refused("ebar,force [m]\n9,1\n", scales), says("column force [m]"));
+  CHECK_THAT(refused("ebar,force\n9,1\n", scales), says("nor force with a unit, as in force [N]"));
+  CHECK_THAT(refused("shortness,force_N\n9,1\n", scales), says("there are: shortness, force_N"));
+  CHECK_THAT(refused("ebar,force_N,spread\n9,1,-1\n", scales), says("bad.csv:2: a spread"));
+}
+
+TEST_CASE("how much of a curve lies inside the spread of a measurement is said") {
+  ForceCurve measured = sampled("measured", 1, law);
+  for (const double force : measured.force) measured.spread.push_back(0.1 * force);
+  // Off by 1 % more with each step: up to 10 % at ebar 10.
+  const ForceCurve rod =
+      sampled("rod", 1, [](double e) { return law(e) * (1 + 0.01001 * (20 - e)); });
+  const Comparison comparison = compare({rod, measured}, 0);
+  CHECK(comparison.has_spread(1));
+  CHECK_FALSE(comparison.has_spread(0));
+  CHECK(*comparison.within_spread(0, 1) == Approx(10 / 16.));
+  CHECK_FALSE(comparison.within_spread(1, 0));
+  CHECK(comparison_text(comparison).find("rod lies inside the spread of measured at 62 %") !=
+        std::string::npos);
+  const TemporaryFolder folder;
+  write_comparison(folder / "compare.csv", comparison);
+  CHECK(text_of(folder / "compare.csv")
+            .starts_with("ebar,tightening,rod,measured,loose_knot_law,measured_difference,measured_"
+                         "spread\n20,1,"));
 }
