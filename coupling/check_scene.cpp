@@ -60,7 +60,21 @@ class Check {
     }
     for (const double ebar : scene_.path.record) on_path("path.record", ebar);
     if (scene_.solid) on_path("solid3d.seed_ebar", scene_.seed_ebar);
+    confirmation();
     return fits;
+  }
+
+  void confirmation() {
+    if (!scene_.solid || scene_.confirm_at.empty()) return;
+    if (scene_.friction > 0)
+      refuse("solid3d.confirm_at",
+             "with friction a state depends on its path, which another mesh has not gone");
+    const auto [low, high] =
+        std::ranges::minmax(path_from_seed(scene_.path, scene_.seed_ebar).waypoints);
+    for (const double ebar : scene_.confirm_at)
+      if (ebar < low || ebar > high)
+        refuse("solid3d.confirm_at",
+               fmt::format("{} is not on the solid's path, {} to {}", ebar, high, low));
   }
 
   bool force() {

@@ -109,6 +109,27 @@ solid3d::FrictionMemory read_memory(hid_t file, const std::string& name) {
   return memory;
 }
 
+// Points of a recorded state that is to be confirmed.
+void write_points(hid_t file, size_t k, const solid3d::SolidState& state) {
+  for (const auto& [name, points] :
+       {std::pair("nodes", &state.nodes), std::pair("centerline", &state.centerline)}) {
+    Vector x(3 * static_cast<Eigen::Index>(points->size()));
+    for (size_t i = 0; i < points->size(); ++i)
+      x.segment<3>(3 * static_cast<Eigen::Index>(i)) = (*points)[i];
+    write_vector(file, fmt::format("{}_{}", name, k).c_str(), x);
+  }
+}
+
+void read_points(hid_t file, size_t k, solid3d::SolidState& state) {
+  for (const auto& [name, points] :
+       {std::pair("nodes", &state.nodes), std::pair("centerline", &state.centerline)}) {
+    const std::string set = fmt::format("{}_{}", name, k);
+    if (H5Lexists(file, set.c_str(), H5P_DEFAULT) <= 0) return;
+    const Vector x = read_vector(file, set.c_str());
+    for (Eigen::Index i = 0; i + 2 < x.size(); i += 3) points->push_back(x.segment<3>(i));
+  }
+}
+
 void write_file(const fs::path& path, const Checkpoint& checkpoint) {
   const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   const solid3d::SolidCheckpoint& solid = checkpoint.solid;
@@ -118,6 +139,8 @@ void write_file(const fs::path& path, const Checkpoint& checkpoint) {
     write_vector(file, fmt::format("state_{}", k).c_str(), solid.history[k].x);
   }
   write_vector(file, "ebar", ebar);
+  for (size_t k = 0; k < checkpoint.states.size(); ++k)
+    if (!checkpoint.states[k].nodes.empty()) write_points(file, k, checkpoint.states[k]);
   write_vector(file, "scales", Vector3(solid.tension, solid.contact_stiffness, solid.wall_s));
   write_memory(file, "friction", solid.friction);
   write_memory(file, "whole_friction", solid.whole_friction);
@@ -143,6 +166,7 @@ Checkpoint read_file(const fs::path& path) {
   log.at("progress").get_to(solid.progress);
   log.at("rows").get_to(checkpoint.rows);
   log.at("states").get_to(checkpoint.states);
+  for (size_t k = 0; k < checkpoint.states.size(); ++k) read_points(file, k, checkpoint.states[k]);
   return checkpoint;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/interrupt.h"
@@ -87,8 +88,27 @@ solid3d::SolidObserver Recorder::watch_solid(const solid3d::Mesh& mesh, const Pa
   };
   observer.on_record = [this, &mesh](const solid3d::SolidState& state) {
     phases.enter("write");
-    write(mesh, state);
+    write(*solid_, mesh, state);
+    keep(state);
     phases.enter("tighten");
+  };
+  observer.interrupted = interrupted;
+  return observer;
+}
+
+solid3d::SolidObserver Recorder::watch_confirmation(const solid3d::Mesh& mesh, const Path& path) {
+  if (!confirmed_) confirmed_.emplace(folder_, "confirm", scene_.scales());
+  progress.begin("confirm", path);
+  phases.enter("confirm");
+  solid3d::SolidObserver observer;
+  observer.on_step = [this](const StepRow& row) {
+    progress.step(row);
+    confirmed_->force.step(row);
+  };
+  observer.on_record = [this, &mesh](const solid3d::SolidState& state) {
+    phases.enter("write");
+    write(*confirmed_, mesh, state);
+    phases.enter("confirm");
   };
   observer.interrupted = interrupted;
   return observer;
@@ -112,17 +132,21 @@ void Recorder::write(const rod1d::RodState& state) {
   rod_->series.add(state.ebar, "vtu/" + name + ".vtu");
 }
 
-void Recorder::write(const solid3d::Mesh& mesh, const solid3d::SolidState& state) {
-  const std::string name = solid_->next_name(state.ebar);
-  write_centerline(solid_->folder / "centerline" / (name + ".csv"), state.s, state.centerline,
+void Recorder::write(Files& files, const solid3d::Mesh& mesh, const solid3d::SolidState& state) {
+  const std::string name = files.next_name(state.ebar);
+  write_centerline(files.folder / "centerline" / (name + ".csv"), state.s, state.centerline,
                    state.curvature, {{"flattening", state.flattening}});
-  write_solid_vtu(solid_->folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
-  solid_->series.add(state.ebar, "vtu/" + name + ".vtu");
+  write_solid_vtu(files.folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
+  files.series.add(state.ebar, "vtu/" + name + ".vtu");
+}
+
+void Recorder::keep(const solid3d::SolidState& state) {
   solid3d::SolidState light = state;
   for (auto* field :
        {&light.jacobian, &light.pressure, &light.von_mises, &light.contact_pressure, &light.gap})
     field->clear();
-  light.nodes.clear();
+  const auto same = [&](double ebar) { return std::abs(ebar - state.ebar) < 1e-6; };
+  if (std::ranges::none_of(scene_.confirm_at, same)) light.nodes.clear(), light.centerline.clear();
   solid_states.push_back(std::move(light));
 }
 

@@ -25,13 +25,17 @@ class Recorder {
   solid3d::SolidObserver watch_solid(const solid3d::Mesh& mesh, const Path& path,
                                      const std::optional<Checkpoint>& from);
 
+  /// Of a state of the solid on another mesh.
+  solid3d::SolidObserver watch_confirmation(const solid3d::Mesh& mesh, const Path& path);
+
   const std::filesystem::path& folder() const { return folder_; }
 
   Phases phases;
   Progress progress;
   std::optional<rod1d::RodState> seed;  ///< the rod's state at the scene's seed_ebar
   std::vector<StepRow> solid_rows;
-  std::vector<solid3d::SolidState> solid_states;  ///< without their fields, for the summary
+  /// Without their fields, for the summary; where they are to be confirmed, with nodes.
+  std::vector<solid3d::SolidState> solid_states;
 
  private:
   /// The files of one fidelity.
@@ -44,11 +48,12 @@ class Recorder {
     std::map<std::string, int> met;
   };
   void write(const rod1d::RodState& state);
-  void write(const solid3d::Mesh& mesh, const solid3d::SolidState& state);
+  void write(Files& files, const solid3d::Mesh& mesh, const solid3d::SolidState& state);
+  void keep(const solid3d::SolidState& state);
 
   std::filesystem::path folder_;
   const Scene& scene_;
-  std::optional<Files> rod_, solid_;
+  std::optional<Files> rod_, solid_, confirmed_;
 };
 
 }  // namespace bight::coupling

@@ -40,7 +40,7 @@ void clear(const fs::path& folder) {
        {"scene.toml", "summary.json", "compare.csv", "curvature.csv", "report.html", "run.log"})
     fs::remove(folder / name);
   remove_checkpoints(folder);
-  for (const char* fidelity : {"rod", "solid"}) {
+  for (const char* fidelity : {"rod", "solid", "confirm"}) {
     fs::remove(folder / fidelity / "force.csv");
     fs::remove(folder / fidelity / (std::string(fidelity) + ".pvd"));
     fs::remove(folder / fidelity / "tie.pvd");

@@ -6,6 +6,7 @@
 #include "coupling/checkpoint.h"
 #include "coupling/compare.h"
 #include "coupling/compare_centerlines.h"
+#include "coupling/confirm.h"
 #include "coupling/recorder.h"
 #include "coupling/results_folder.h"
 #include "coupling/sweep.h"
@@ -24,8 +25,8 @@ ForceCurve curve(const std::string& name, const std::vector<StepRow>& steps) {
   return result;
 }
 
-solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder,
-                                      const std::optional<Checkpoint>& from) {
+void run_seeded_solid(const Scene& scene, Recorder& recorder, const std::optional<Checkpoint>& from,
+                      RunReport& report) {
   recorder.phases.enter("seed");
   const rod1d::RodState& seed = *recorder.seed;
   const solid3d::Mesh mesh = swept_mesh({.section_elements = scene.section_elements,
@@ -39,7 +40,8 @@ solid3d::SolidResult run_seeded_solid(const Scene& scene, Recorder& recorder,
       run_solid(mesh, start, seed.ebar, parameters,
                 recorder.watch_solid(mesh, parameters.path, from), from ? &from->solid : nullptr);
   result.steps = recorder.solid_rows;
-  return result;
+  report.solid = std::move(result);
+  if (!report.interrupted()) report.confirmed = confirm(scene, mesh, recorder);
 }
 
 Comparison compare_fidelities(const Scene& scene, const RunReport& report, Recorder& recorder) {
@@ -80,7 +82,7 @@ ExitStatus run(const Scene& scene, const RunOptions& options) {
 
   report.rod = run_rod(rod, recorder.watch_rod(rod.path));
   if (scene.solid && recorder.seed && !report.interrupted())
-    report.solid = run_seeded_solid(scene, recorder, checkpoint);
+    run_seeded_solid(scene, recorder, checkpoint, report);
   recorder.progress.end();
   report.comparison = compare_fidelities(scene, report, recorder);
   write_summary(report, recorder);

@@ -49,6 +49,8 @@ void derive_defaults(Values& values) {
     derive(values, "path.record", waypoints);
     derive(values, "solid3d.seed_ebar", waypoints.front());
   }
+  if (!values.get<std::vector<double>>("solid3d.confirm_at").empty())
+    derive(values, "solid3d.confirm_elements", 60.0);
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
   derive(values, "rod1d.follow_knot", straight && !values.get<bool>("effects.inertia"));
@@ -136,6 +138,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.element = values.word("solid3d.element");
   scene.hourglass_factor = values.number("solid3d.hourglass_factor");
   scene.seed_ebar = values.number("solid3d.seed_ebar");
+  scene.confirm_at = values.get<std::vector<double>>("solid3d.confirm_at");
+  if (!scene.confirm_at.empty())
+    scene.confirm_elements = static_cast<int>(values.number("solid3d.confirm_elements"));
   scene.axial_ratio = values.number("solid3d.axial_ratio");
   scene.tail_ratio = values.number("solid3d.tail_ratio");
   scene.contact_stiffness = values.number("solid3d.contact_stiffness");
@@ -215,7 +220,10 @@ solid3d::SolidParameters solid_parameters(const Scene& scene) {
   solid.sample_spacing = scene.sample_spacing;
   solid.symmetry = scene.symmetry;
   solid.friction = scene.friction;
-  solid.path = path_from_seed(scene.path, scene.seed_ebar);
+  Path path = scene.path;
+  for (const double ebar : scene.confirm_at)
+    if (std::ranges::count(path.record, ebar) == 0) path.record.push_back(ebar);
+  solid.path = path_from_seed(path, scene.seed_ebar);
   return solid;
 }
 

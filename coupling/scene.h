@@ -44,6 +44,8 @@ struct Scene {
   std::string element;  ///< of the solid
   double hourglass_factor = 1;
   double seed_ebar = 0, axial_ratio = 0, tail_ratio = 0;
+  std::vector<double> confirm_at;  ///< ebar at which the solid is solved again, and on this section
+  int confirm_elements = 0;
   double contact_stiffness = 0, solid_penetration = 0, sample_spacing = 0;
 
   std::vector<std::string> cases;  ///< "NAME: " and "NAME: key=value"; empty: the scene is one

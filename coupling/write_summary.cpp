@@ -139,6 +139,18 @@ Json solid_numbers(const solid3d::SolidResult& solid, const Scene& scene,
   return result;
 }
 
+Json confirmed_numbers(const Confirmation& of, const Scene& scene) {
+  Json result = {{"ebar", of.ebar},
+                 {"section_elements", scene.confirm_elements},
+                 {"cells", of.result.cells},
+                 {"unknowns", of.result.unknowns}};
+  result.update(path_numbers(of.result.outcome, of.result.steps));
+  if (!of.finished()) return result;
+  result["force_normalised"] = normalised_force(of.result.steps.back().tension);
+  result["error_of_path"] = of.path_error();
+  return result;
+}
+
 Json comparison_numbers(const Comparison& comparison, const Recorder& recorder) {
   Json result;
   for (const double level : parting_levels) {
@@ -160,12 +172,16 @@ Json comparison_numbers(const Comparison& comparison, const Recorder& recorder) 
 
 bool RunReport::interrupted() const {
   return rod.outcome.status == PathStatus::interrupted ||
-         (solid && solid->outcome.status == PathStatus::interrupted);
+         (solid && solid->outcome.status == PathStatus::interrupted) ||
+         std::ranges::any_of(confirmed, [](const Confirmation& of) {
+           return of.result.outcome.status == PathStatus::interrupted;
+         });
 }
 
 bool RunReport::finished() const {
   return rod.outcome.status == PathStatus::finished &&
-         (!scene.solid || (solid && solid->outcome.status == PathStatus::finished));
+         (!scene.solid || (solid && solid->outcome.status == PathStatus::finished)) &&
+         std::ranges::all_of(confirmed, &Confirmation::finished);
 }
 
 std::string RunReport::status() const {
@@ -178,6 +194,8 @@ std::string RunReport::verdict() const {
   if (scene.solid && !solid) text += "; the rod did not reach the solid's seed";
   if (solid && solid->outcome.status != PathStatus::finished)
     text += "; solid: " + solid->outcome.reason;
+  for (const Confirmation& of : confirmed)
+    if (!of.finished()) text += "; " + confirmation_text(scene, of);
   return text;
 }
 
@@ -190,6 +208,8 @@ void write_summary(const RunReport& report, Recorder& recorder) {
                   {"versions", versions()},     {"machine", machine(report.threads)}};
   if (scene.rod) summary["rod"] = rod_numbers(report.rod, scene);
   if (report.solid) summary["solid"] = solid_numbers(*report.solid, scene, recorder);
+  for (const Confirmation& of : report.confirmed)
+    summary["confirmed"].push_back(confirmed_numbers(of, scene));
   if (report.comparison.names.size() > 1)
     summary["comparison"] = comparison_numbers(report.comparison, recorder);
   recorder.phases.enter("done");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "coupling/compare.h"
+#include "coupling/confirm.h"
 #include "coupling/recorder.h"
 #include "coupling/scene.h"
 
@@ -15,6 +16,7 @@ struct RunReport {
   int threads = 1;
   rod1d::RodResult rod = {};
   std::optional<solid3d::SolidResult> solid = {};
+  std::vector<Confirmation> confirmed = {};
   Comparison comparison = {};
 
   bool interrupted() const;

@@ -1,5 +1,6 @@
 #include "solid3d/measure.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +37,9 @@ std::vector<double> curvature(const Polyline& r, const std::vector<double>& s) {
   std::vector<double> kappa(n, 0.0);
   for (size_t i = 1; i + 1 < n; ++i) {
     const double a = s[i] - s[i - 1], b = s[i + 1] - s[i];
-    kappa[i] = (2 * ((r[i + 1] - r[i]) / b - (r[i] - r[i - 1]) / a) / (a + b)).norm();
+    const Vector3 before = (r[i] - r[i - 1]) / a, behind = (r[i + 1] - r[i]) / b;
+    const Vector3 dr = (b * before + a * behind) / (a + b), ddr = 2 * (behind - before) / (a + b);
+    kappa[i] = dr.cross(ddr).norm() / dr.squaredNorm();
   }
   if (n > 2) kappa[0] = kappa[1], kappa[n - 1] = kappa[n - 2];
   return kappa;

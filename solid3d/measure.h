@@ -9,7 +9,8 @@ namespace bight::solid3d {
 /// Mean of the centre points of each section [D].
 Polyline centerline(const Mesh& mesh, const Vector& x);
 
-/// |d2r/ds2| of a polyline over undeformed arc length s; one-sided at the ends.
+/// Turn of the tangent by undeformed arc length s, |r' x r''|/|r'|^2 of the parabola through three
+/// points: what bends a rod, whatever its stretch. One-sided at the ends.
 std::vector<double> curvature(const Polyline& line, const std::vector<double>& s);
 
 /// The largest 1 - w/w0 of each section, w its width between parallel lines in its plane and w0

@@ -26,7 +26,9 @@ Checkpoint example(int steps) {
   at.rows = {row};
   solid3d::SolidState state;
   state.ebar = 17.5, state.curvature = {0.1, 0.2}, state.energy_by_effect = {{"strain", 1e-300}};
-  at.states = {state};
+  at.states = {state, state};
+  at.states[1].nodes = {{0.1, 1.0 / 3, -1e-20}, {1, 2, 3}};
+  at.states[1].centerline = {{0, 0, 1.0 / 7}};
   return at;
 }
 
@@ -57,7 +59,10 @@ TEST_CASE("a checkpoint reads back exactly") {
   REQUIRE(back->rows.size() == 1);
   CHECK(back->rows[0].tension == 0.1 + 0.2);
   CHECK(back->rows[0].cut_reason == "friction does not settle");
-  REQUIRE(back->states.size() == 1);
+  REQUIRE(back->states.size() == 2);
+  CHECK(back->states[0].nodes.empty());
+  CHECK(back->states[1].nodes == at.states[1].nodes);
+  CHECK(back->states[1].centerline == at.states[1].centerline);
   CHECK(back->states[0].curvature == std::vector<double>{0.1, 0.2});
   CHECK(back->states[0].energy_by_effect.at("strain") == 1e-300);
 }

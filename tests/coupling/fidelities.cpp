@@ -9,6 +9,7 @@
 #include "rod1d/run_rod.h"
 #include "solid3d/effects/strain.h"
 #include "solid3d/run_solid.h"
+#include "solid3d/transfer.h"
 
 using namespace bight;
 using namespace bight::coupling;
@@ -33,8 +34,8 @@ const rod1d::RodState& seed() {
 }
 
 solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr,
-                             bool symmetry = true, double friction = 0) {
-  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
+                             bool symmetry = true, double friction = 0, int cells = 12) {
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = cells, .axial_ratio = 1.0}, seed());
   solid3d::SolidParameters parameters;
   parameters.expected_tension = seed().tension;
   parameters.path.waypoints = {seed_ebar, to};
@@ -190,6 +191,25 @@ TEST_CASE("the solid tightens in balance, on one thread as on two") {
   REQUIRE(one.steps.size() == two.steps.size());
   for (size_t i = 0; i < one.steps.size(); ++i)
     CHECK(one.steps[i].tension == Approx(two.steps[i].tension).epsilon(1e-4));
+}
+
+TEST_CASE("a state found on a coarse mesh is found on a finer one as by a path of its own") {
+  std::vector<solid3d::SolidState> states, of_path;
+  REQUIRE(tighten(18, &states).outcome.status == PathStatus::finished);
+  const solid3d::Mesh coarse = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
+  const solid3d::Mesh fine = swept_mesh({.section_elements = 21, .axial_ratio = 1.0}, seed());
+  solid3d::SolidParameters parameters;
+  parameters.expected_tension = states[1].tension;
+  parameters.penetration = tight_bound;
+  parameters.path.waypoints = {18};
+  const auto found =
+      solid3d::run_solid(fine, solid3d::transferred(coarse, states[1].nodes, fine), 18, parameters);
+  REQUIRE(found.outcome.status == PathStatus::finished);
+  CHECK(found.symmetric);
+  CHECK(found.outcome.iterations <= 15);
+  const auto path = tighten(18, &of_path, true, 0, 21);
+  const double far = std::abs(states[1].tension - path.steps.back().tension);
+  CHECK(std::abs(found.steps[0].tension - path.steps.back().tension) < 0.05 * far);
 }
 
 TEST_CASE("half of a symmetric knot and its image are the whole knot") {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "call.h"
 #include "coupling/read_table.h"
@@ -160,4 +162,35 @@ TEST_CASE("a killed run goes on from its checkpoint to the same curve") {
         CHECK(cut.rows[i][k] == whole.rows[i][k]);
       }
   CHECK(text_of(folder / "cut/solid/solid.pvd") == text_of(folder / "whole/solid/solid.pvd"));
+}
+
+TEST_CASE("a state is confirmed on a finer section, also by a resumed run") {
+  const TemporaryFolder folder;
+  folder.write("knot.toml",
+               small_scene_with("[30, 20]", "[20, 19]\nmax_step = 0.25") +
+                   "[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\nconfirm_at = [20]\n"
+                   "confirm_elements = 21\n");
+  const Outcome whole = call(folder, "solid knot.toml --out whole");
+  REQUIRE(whole.status == 0);
+  CHECK(whole.said.find("confirmed at ebar 20 with 21 cells a section") != std::string::npos);
+  const auto summary = [&](const char* out) {
+    return nlohmann::json::parse(text_of(folder / (std::string(out) + "/summary.json")));
+  };
+  const auto confirmed = summary("whole")["confirmed"];
+  REQUIRE(confirmed.size() == 1);
+  CHECK(confirmed[0]["cells"] > summary("whole")["solid"]["cells"]);
+  const double error = confirmed[0]["error_of_path"];
+  CHECK(std::abs(error) > 1e-3);
+  CHECK(std::abs(error) < 0.03);
+  const auto table = bight::coupling::read_table(folder / "whole/confirm/force.csv");
+  REQUIRE(table.rows.size() == 1);
+  CHECK(std::filesystem::exists(folder / "whole/confirm/centerline/ebar_+020.000.csv"));
+
+  // As if it had been killed: what is to be confirmed was recorded before the last checkpoint.
+  std::filesystem::remove(folder / "whole/summary.json");
+  std::filesystem::remove_all(folder / "whole/confirm");
+  REQUIRE(call(folder, "solid knot.toml --out whole --resume --quiet").status == 0);
+  CHECK(text_of(folder / "whole/run.log").find("resumed at ebar") != std::string::npos);
+  const auto again = bight::coupling::read_table(folder / "whole/confirm/force.csv");
+  CHECK(again.rows[0][1] == table.rows[0][1]);
 }

@@ -46,18 +46,22 @@ TEST_CASE("a scene of four tables is complete") {
 
 TEST_CASE("the filled-in scene reads back to itself") {
   const TemporaryFolder folder;
-  const auto overrides = GENERATE(
-      std::vector<std::string>{},
-      std::vector<std::string>{"material.poissons_ratio=0.3", "title=a \"quoted\" \\ title",
-                               "rod.length=1.1 ft", "path.record=[29.1, 21]"});
+  const auto overrides =
+      GENERATE(std::vector<std::string>{},
+               std::vector<std::string>{"material.poissons_ratio=0.3",
+                                        "title=a \"quoted\" \\ title", "rod.length=1.1 ft",
+                                        "path.record=[29.1, 21]", "solid3d.confirm_at=[22]"});
   const Scene scene = read_scene(folder.write("knot.toml", small_scene), overrides);
   const Scene again = read_scene(folder.write("again.toml", scene.text), {});
   CHECK(again.text == scene.text);
   CHECK(again.length == scene.length);
   CHECK(again.title == scene.title);
+  CHECK(again.confirm_at == scene.confirm_at);
+  CHECK(again.confirm_elements == scene.confirm_elements);
   for (const Key& key : all_keys()) {
     const std::string name(key.path.substr(key.path.find('.') + 1));
     if (key.path == "knot.centerline" || key.path == "path.force") continue;
+    if (key.path.starts_with("solid3d.confirm_") && scene.confirm_at.empty()) continue;
     if (key.otherwise.starts_with("needed by")) continue;  // a model that this one is not
     // What a study or cases vary is no part of a run: runs are found again when the grid grows.
     const bool written = scene.text.find(name + " = ") != std::string::npos;
@@ -102,6 +106,10 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene_with("[30, 20]", "[]"), {":7", "path.ebar"}},
       {small_scene_with("[30, 20]", "[30, 20]\nrecord = [10]"), {":8", "path.record", "20 to 30"}},
       {small_scene + "[solid3d]\nseed_ebar = 5\n", {":9", "solid3d.seed_ebar", "20 to 30"}},
+      {small_scene + "[solid3d]\nseed_ebar = 25\nconfirm_at = [26]\n",
+       {":10", "solid3d.confirm_at", "26 is not on the solid's path, 25 to 20"}},
+      {small_scene + "[solid3d]\nconfirm_at = [20]\n[effects]\nfriction = 0.1\n",
+       {":9", "solid3d.confirm_at", "depends on its path"}},
       {small_scene_with("350 mm", "80 mm"), {"rod.length", "too short"}},
       {small_scene_with("\"350 mm\"", "1e300"), {":2", "rod.length", "too long"}},
       {small_scene_with("8.3 mm", "1e-320 m"), {"rod.length", "too long"}},

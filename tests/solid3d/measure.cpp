@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/solid3d/shapes.h"
 
@@ -12,7 +13,22 @@ TEST_CASE("the curvature of a parabola is exact on unequal spacing") {
   const std::vector<double> s = {0, 0.1, 0.25, 0.3, 0.6, 1};
   Polyline line;
   for (double at : s) line.push_back({0.15 * at * at, 0, at});
-  for (double kappa : curvature(line, s)) CHECK(kappa == Approx(0.3));
+  const std::vector<double> kappa = curvature(line, s);
+  for (size_t i = 1; i + 1 < s.size(); ++i)
+    CHECK(kappa[i] == Approx(0.3 / (1 + 0.09 * s[i] * s[i])));
+}
+
+TEST_CASE("stretch is no curvature, and does not change that of an arc by undeformed length") {
+  std::vector<double> s;
+  Polyline straight, arc;
+  for (int i = 0; i <= 40; ++i) {
+    s.push_back(0.05 * i);
+    straight.push_back({0, 0, s[i] + 0.1 * s[i] * s[i]});
+    const double angle = 0.8 * s[i], radius = 1.2 / 0.8;  // stretched by 1.2
+    arc.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  for (const double kappa : curvature(straight, s)) CHECK(kappa == Approx(0).margin(1e-12));
+  for (const double kappa : curvature(arc, s)) CHECK(kappa == Approx(0.8).epsilon(1e-3));
 }
 
 TEST_CASE("the centerline is the mean of the centre points, whatever the others do") {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "solid3d/mesh.h"
+
+namespace bight::solid3d {
+
+/// Where the nodes of a mesh lie in the deformation that another mesh of the same rod found: the
+/// start of a relaxation that is close to its end. Bilinear in the cells of a section, whose outer
+/// ones go on beyond their rim; along the rod a cubic through the four layers around.
+///
+/// `from`, `nodes`: a mesh and the positions of its nodes [D]. Both meshes have the same length and
+/// diameter. Of a frictionless rod alone: what has rubbed where is not carried over.
+std::vector<Vector3> transferred(const Mesh& from, const std::vector<Vector3>& nodes,
+                                 const Mesh& to);
+
+}  // namespace bight::solid3d
