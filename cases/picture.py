@@ -138,11 +138,10 @@ def draw_unrolled(axes, shape, scale, range_of_s):
 
 
 def main(results, picture, wanted):
-    ebar, file = states(results, "rod")[0]
-    shapes = [(f"rod, tied, ebar = {ebar:g}", rod_tube(file))]
+    shapes = [(f"rod, tied, ebar = {ebar:g}", rod_tube(file)) for ebar, file in states(results, "rod")[:1]]
     shapes += [(f"solid, ebar = {ebar:g}", solid_surface(file)) for ebar, file in states(results, "solid")
                if not wanted or ebar in wanted]
-    solids = [shape for _, shape in shapes[1:]]
+    solids = [shape for _, shape in shapes if "pressure" in shape]
     touching = [solid["pressure"] > 0 for solid in solids]
     loads = np.concatenate([solid["pressure"][touch] for solid, touch in zip(solids, touching)] or [[]])
     # Square root: the pressure of a loose knot is a hundredth of that of a tight one.

@@ -13,6 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 
 def seconds(row):
@@ -38,6 +39,13 @@ def plot_case(axes, case, rows, key):
     axes.set_ylim(min(shown) / 2, max(shown) * 2)
     axes.set_title(", ".join([case["fidelity"]] + case["problem"]), fontsize=10)
     axes.set_xlabel("seconds of one processor")
+
+
+def percents(axes):
+    """Ticks that can be read on axes of a decade or two."""
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 def plot_fidelities(axes, problem, rows, states):
@@ -69,7 +77,7 @@ def main(results, picture):
     varied = {part.split("=")[0] for case in cases for part in case["problem"]} | {"fidelities"}
     with open(results / "study_states.csv", newline="") as file:
         states = list(csv.DictReader(file))
-    both = [case for case in cases if case.get("from_solid")]
+    both = [case for case in study["cases"] if case.get("from_solid")]
     columns = max(len(cases), len(both))
     figure, axes = plt.subplots(2 if both else 1, columns, figsize=(4.5 * columns, 8 if both else 4), squeeze=False,
                                 layout="constrained")
@@ -86,6 +94,8 @@ def main(results, picture):
         each.legend(frameon=False, fontsize=8)
     for row in axes:
         row[0].set_ylabel("largest error in T [%]")
+        for each in row:
+            percents(each)
     figure.savefig(picture, dpi=110)
     print(picture)
 
