@@ -4,10 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "coupling/interrupt.h"
 
 namespace bight::coupling {
+
+namespace {
+
+/// M D/B of a moment in E D^3, B = pi E D^4/64: the kappa D of a linear rod.
+constexpr double normalised_moment = 64 / std::numbers::pi;
+
+std::vector<double> times(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+}  // namespace
 
 Recorder::Files::Files(const std::filesystem::path& in, const std::string& name,
                        const Scales& scales)
@@ -135,7 +148,11 @@ void Recorder::write(const rod1d::RodState& state) {
 void Recorder::write(Files& files, const solid3d::Mesh& mesh, const solid3d::SolidState& state) {
   const std::string name = files.next_name(state.ebar);
   write_centerline(files.folder / "centerline" / (name + ".csv"), state.s, state.centerline,
-                   state.curvature, {{"flattening", state.flattening}});
+                   state.curvature,
+                   {{"flattening", state.flattening},
+                    {"axial_force", times(state.loads.axial, normalised_force(1))},
+                    {"bending_moment", times(state.loads.bending, normalised_moment)},
+                    {"twisting_moment", times(state.loads.twisting, normalised_moment)}});
   write_solid_vtu(files.folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
   files.series.add(state.ebar, "vtu/" + name + ".vtu");
 }

@@ -66,6 +66,44 @@ std::vector<double> flattening(const Mesh& mesh, const Vector& x) {
   return result;
 }
 
+SectionLoads section_loads(const Mesh& mesh, const SolidEffects& effects, const Vector& x) {
+  const Polyline centre = centerline(mesh, x);
+  const int layers = mesh.layers();
+  struct Load {
+    Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
+    int sides = 0;
+  };
+  std::vector<Load> loads(static_cast<size_t>(layers));
+  for (int k = 0; k < layers; ++k) loads[k].sides = (k > 0) + (k + 1 < layers);
+  for (const auto& effect : effects.list) {
+    if (effect->name() != "strain" && effect->name() != "hourglass") continue;
+    for (int i = 0; i < effect->stencils(); ++i) {
+      Eigen::Matrix<double, 24, 1> gradient = Eigen::Matrix<double, 24, 1>::Zero();
+      ElementSlot slot{0, gradient.data(), nullptr};
+      effect->element(x, i, Order::gradient, slot);
+      const auto at = effect->coordinates(i);
+      int last = 0;
+      for (int a = 0; a < 8; ++a) last = std::max(last, at[3 * a] / 3 / mesh.points_per_layer());
+      for (int a = 0; a < 8; ++a) {
+        const int layer = at[3 * a] / 3 / mesh.points_per_layer();
+        const Vector3 f =
+            (layer == last ? 1 : -1) * gradient.segment<3>(3 * a) / loads[layer].sides;
+        loads[layer].force += f;
+        loads[layer].moment += (x.segment<3>(at[3 * a]) - centre[layer]).cross(f);
+      }
+    }
+  }
+  SectionLoads result;
+  for (int k = 0; k < layers; ++k) {
+    const Vector3 t =
+        (centre[std::min(k + 1, layers - 1)] - centre[std::max(k - 1, 0)]).normalized();
+    result.axial.push_back(loads[k].force.dot(t));
+    result.twisting.push_back(loads[k].moment.dot(t));
+    result.bending.push_back((loads[k].moment - result.twisting.back() * t).norm());
+  }
+  return result;
+}
+
 SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x) {
   SolidState state;
   for (int n = 0; n < mesh.nodes(); ++n) state.nodes.push_back(x.segment<3>(3 * n));
@@ -73,6 +111,7 @@ SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x
   state.s = mesh.s;
   state.curvature = curvature(state.centerline, mesh.s);
   state.flattening = flattening(mesh, x);
+  state.loads = section_loads(mesh, effects, x);
   state.determinant = knot_determinant(state.centerline);
 
   for (int cell = 0; cell < effects.strain->cells(); ++cell) {

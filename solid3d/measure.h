@@ -17,6 +17,11 @@ std::vector<double> curvature(const Polyline& line, const std::vector<double>& s
 /// that of the undeformed section between lines in the same direction.
 std::vector<double> flattening(const Mesh& mesh, const Vector& x);
 
+/// Resultants at all sections, about their centres: nodal forces of the cells before a section and
+/// minus those of the cells behind it, their mean (contact acts on the section's own nodes). At the
+/// ends, of the cells that there are. For one strand whose effects are those of the whole of it.
+SectionLoads section_loads(const Mesh& mesh, const SolidEffects& effects, const Vector& x);
+
 /// Everything the writers show of a state, but tension and energies.
 SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x);
 

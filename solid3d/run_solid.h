@@ -33,6 +33,13 @@ struct SolidParameters {
   Path path;
 };
 
+/// What the material on one side of a section does to that on the other, by section.
+struct SectionLoads {
+  std::vector<double> axial;     ///< force along the centerline, tension positive [E D^2]
+  std::vector<double> bending;   ///< moment about axes across it, its size [E D^3]
+  std::vector<double> twisting;  ///< moment about it, right-handed along s [E D^3]
+};
+
 /// A recorded equilibrium of the solid, for the writers.
 struct SolidState {
   double ebar = 0;
@@ -41,6 +48,7 @@ struct SolidState {
   std::vector<double> s;                 ///< undeformed arc length of the sections [D]
   std::vector<double> curvature;         ///< kappa D of the centerline
   std::vector<double> flattening;        ///< 1 - smallest diameter of the section / D
+  SectionLoads loads;
   std::vector<double> jacobian;          ///< J, per cell
   std::vector<double> pressure;          ///< mean Cauchy stress (tension positive), per cell [E]
   std::vector<double> von_mises;         ///< per cell [E]

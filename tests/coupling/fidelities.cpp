@@ -259,11 +259,20 @@ TEST_CASE("the paper's loose rod, soft in bending, is relaxed in a few iteration
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, loose);
   solid3d::SolidParameters parameters;
   parameters.expected_tension = loose.tension;
-  parameters.path.waypoints = {ebar};
-  const auto result = solid3d::run_solid(mesh, sweep(mesh, loose), ebar, parameters);
+  parameters.path.waypoints = parameters.path.record = {ebar};
+  solid3d::SolidState state;
+  solid3d::SolidObserver observer;
+  observer.on_record = [&](const auto& recorded) { state = recorded; };
+  const auto result = solid3d::run_solid(mesh, sweep(mesh, loose), ebar, parameters, observer);
   REQUIRE(result.outcome.status == PathStatus::finished);
   CHECK(result.steps[0].newton_iterations <= 12);
   CHECK(result.steps[0].tension == Approx(loose.tension).epsilon(0.0125));
+  // Its sections carry B kappa.
+  constexpr double bending_stiffness = M_PI / 64;
+  const auto most = std::ranges::max_element(state.curvature) - state.curvature.begin();
+  CHECK(state.loads.bending[most] ==
+        Approx(bending_stiffness * state.curvature[most]).epsilon(0.02));
+  CHECK(std::abs(state.loads.twisting[most]) < 0.02 * state.loads.bending[most]);
 }
 
 TEST_CASE("one half of a figure-eight with its inversion is as tight as the whole",

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/derivatives.h"
 #include "tests/solid3d/shapes.h"
 
 using namespace bight;
@@ -93,4 +94,58 @@ TEST_CASE("fields of a rod under a known strain, with its turns pressed on each 
   CHECK(largest < parameters.contact_stiffness * overlap);
   CHECK(largest > 0.3 * parameters.contact_stiffness * overlap);
   CHECK(*std::min_element(pressure.begin(), pressure.end()) == 0);
+}
+
+namespace {
+
+SolidEffects strain_alone(const Mesh& mesh) {
+  SolidParameters parameters;
+  parameters.contact = false;
+  return make_effects(mesh, parameters, 3 * mesh.nodes());
+}
+
+double energy(const Mesh& mesh, const SolidEffects& effects, Vector x) {
+  const Unknowns unknowns({}, 0, std::vector<bool>(static_cast<size_t>(x.size()), true));
+  effects.strain->settle(x);
+  Assembler assembler(unknowns, effects.list);
+  (void)mesh;
+  return assembler.energy(x);
+}
+
+}  // namespace
+
+TEST_CASE("moment and force of the first section are what turning and moving it stores") {
+  const Mesh mesh = test::straight_mesh(12, 1.0, 1.0);
+  const SolidEffects effects = strain_alone(mesh);
+  const int internal = 2 * static_cast<int>(mesh.cells.size());
+  Vector x = test::shaken(test::reference_state(mesh, internal), 3 * mesh.nodes(), 0.01);
+  effects.strain->settle(x);
+  const SectionLoads loads = section_loads(mesh, effects, x);
+  const Polyline line = centerline(mesh, x);
+  const Vector3 t = (line[1] - line[0]).normalized();
+  const auto changed = [&](double turn, double shift) {
+    Vector y = x;
+    const Matrix3 R = Eigen::AngleAxisd(turn, t).toRotationMatrix();
+    for (int n = 0; n < mesh.points_per_layer(); ++n)
+      y.segment<3>(3 * n) = line[0] + R * (x.segment<3>(3 * n) - line[0]) + shift * t;
+    return energy(mesh, effects, y);
+  };
+  constexpr double h = 1e-5;
+  CHECK(loads.twisting[0] == Approx(-(changed(h, 0) - changed(-h, 0)) / (2 * h)).epsilon(1e-5));
+  CHECK(loads.axial[0] == Approx(-(changed(0, h) - changed(0, -h)) / (2 * h)).epsilon(1e-5));
+}
+
+TEST_CASE("sections of a twisted rod carry G J times the twist, right-handed") {
+  const Mesh mesh = test::straight_mesh(60, 3.0, 1.0);
+  const SolidEffects effects = strain_alone(mesh);
+  Vector x = test::reference_state(mesh, 2 * static_cast<int>(mesh.cells.size()));
+  constexpr double rate = 0.05, shear_modulus = 1.0 / 3;
+  for (int n = 0; n < mesh.nodes(); ++n)
+    x.segment<3>(3 * n) =
+        Eigen::AngleAxisd(rate * x[3 * n + 2], Vector3::UnitZ()) * mesh.reference(n);
+  effects.strain->settle(x);
+  const SectionLoads loads = section_loads(mesh, effects, x);
+  for (const double torque : loads.twisting)
+    CHECK(torque == Approx(shear_modulus * M_PI / 32 * rate).epsilon(0.01));
+  for (const double moment : loads.bending) CHECK(moment < 1e-10);
 }
