@@ -23,7 +23,10 @@ TEST_CASE("hard: solid to ebar -10, steps of 10", "[.hard]") {
 }
 
 TEST_CASE("hard: solid to ebar -10 with mu = 1.0", "[.hard]") {
-  must_hold(run("solid", {"path.ebar=[20, -10]", "effects.friction=1.0"}), {.balance = 0.02});
+  // In each step friction takes its force from the step's end: of the work, 2.1 % is unexplained in
+  // steps of 0.5, and 1.4 % in these.
+  must_hold(run("solid", {"path.ebar=[20, -10]", "effects.friction=1.0", "path.max_step=0.25"}),
+            {.balance = 0.02});
 }
 
 TEST_CASE("hard: solid, K/mu_s = 1e5", "[.hard]") {
