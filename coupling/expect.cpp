@@ -42,23 +42,35 @@ std::string rod_line(const Scene& scene) {
 }
 
 // The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
-std::string solid_line(const Scene& scene) {
-  const solid3d::Section section = solid3d::make_section(scene.section_elements);
+solid3d::Mesh expected_mesh(const Scene& scene, int cells, double ebar) {
+  const solid3d::Section section = solid3d::make_section(cells);
   const double width = section.cell_width();
   const double middle = 0.5 * scene.slenderness();
-  const double half = std::min(middle, 0.5 * (scene.seed_ebar + 6));
-  const solid3d::Mesh mesh = solid3d::make_mesh(
+  const double half = std::min(middle, 0.5 * (ebar + 6));
+  return solid3d::make_mesh(
       section, solid3d::graded_layers(scene.slenderness(), scene.axial_ratio * width,
                                       scene.tail_ratio * width, middle - half, middle + half));
-  // A layer couples with itself and the next: b (1.5 b) entries a layer, b = 3 points, and fill;
-  // strands in contact about double that.
+}
+
+std::string size_text(const Scene& scene, const solid3d::Mesh& mesh) {
+  // Of measured peaks with contact (one half, 12 to 108 cells: 0.14 to 3.0 GB): a part by unknowns
+  // and one by the squares of the layers' blocks, the factor's fill.
   const double block = 3.0 * mesh.points_per_layer();
-  const double entries = 1.2 * mesh.layers() * block * block * (scene.contact ? 2 : 1);
-  const double gigabytes = (8 * entries + 3000.0 * mesh.nodes()) / 1e9;
-  return fmt::format(
-      "solid  {} cells in a section, about {} layers, {} cells, {} unknowns, {:.1f} GB\n{}{}",
-      section.quads.size(), mesh.layers(), mesh.cells.size(), 3 * mesh.nodes(), gigabytes,
-      costs_text(expected_solid(scene, mesh)), left_out(scene, &KnownEffect::in_solid));
+  const double of_half = 10.5e3 * 3 * mesh.nodes() + 2.2 * 8 * mesh.layers() * block * block;
+  const double gigabytes = 0.04 + of_half * (scene.symmetry ? 1 : 2) / 1e9;
+  return fmt::format("{} cells in a section, about {} layers, {} cells, {} unknowns, {:.1f} GB\n",
+                     mesh.section.quads.size(), mesh.layers(), mesh.cells.size(), 3 * mesh.nodes(),
+                     gigabytes);
+}
+
+std::string solid_line(const Scene& scene) {
+  const solid3d::Mesh mesh = expected_mesh(scene, scene.section_elements, scene.seed_ebar);
+  std::string text = "solid  " + size_text(scene, mesh) + costs_text(expected_solid(scene, mesh)) +
+                     left_out(scene, &KnownEffect::in_solid);
+  for (const double ebar : scene.confirm_at)
+    text += fmt::format("       confirmed at ebar {:g}: ", ebar) +
+            size_text(scene, expected_mesh(scene, scene.confirm_elements, ebar));
+  return text;
 }
 
 }  // namespace

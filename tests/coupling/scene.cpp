@@ -322,6 +322,15 @@ TEST_CASE("the knot of a centerline file is known before anything runs") {
              Contains("determinant is 1"));
 }
 
+TEST_CASE("what is to be confirmed is said before it runs") {
+  const TemporaryFolder folder;
+  const Scene scene = read_scene(folder.write("scene.toml", small_scene),
+                                 {"solid3d.confirm_at=[25, 20]", "solid3d.confirm_elements=108"});
+  const std::string text = expectations(scene);
+  for (const char* ebar : {"25", "20"})
+    CHECK_THAT(text, Catch::Contains(fmt::format("confirmed at ebar {}: 108 cells", ebar)));
+}
+
 TEST_CASE("a centerline whose strands run through each other is refused, a slight overlap is not") {
   using Catch::Contains;
   // A thicker rod on the same line. Strands of the line are about 1.2 of its diameters apart.
