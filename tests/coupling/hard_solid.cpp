@@ -23,7 +23,7 @@ TEST_CASE("hard: solid to ebar -10, steps of 10", "[.hard]") {
 }
 
 TEST_CASE("hard: solid to ebar -10 with mu = 1.0", "[.hard]") {
-  // In each step friction takes its force from the step's end: of the work, 2.1 % is unexplained in
+  // Friction's losses are summed to first order in the step: of the work, 2.1 % is unexplained in
   // steps of 0.5, and 1.4 % in these.
   must_hold(run("solid", {"path.ebar=[20, -10]", "effects.friction=1.0", "path.max_step=0.25"}),
             {.balance = 0.02});
