@@ -1,11 +1,12 @@
 #include "coupling/read_curves.h"
 
+#include <toml++/toml.h>
+
 #include <nlohmann/json.hpp>
 
 #include "coupling/errors.h"
 #include "coupling/files.h"
 #include "coupling/read_measured.h"
-#include "coupling/scene.h"
 
 namespace bight::coupling {
 namespace {
@@ -42,7 +43,16 @@ std::vector<std::pair<std::string, fs::path>> fidelity_folders(const fs::path& s
 
 std::optional<Scales> read_scales(const fs::path& source) {
   if (!fs::is_regular_file(source / "scene.toml")) return std::nullopt;
-  return read_scene(source / "scene.toml", {}).scales();
+  toml::table scene;
+  try {
+    scene = toml::parse(read_whole(source / "scene.toml"));
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+  const auto diameter = scene.at_path("rod.diameter").value<double>();
+  const auto youngs_modulus = scene.at_path("material.youngs_modulus").value<double>();
+  if (!diameter || !youngs_modulus) return std::nullopt;
+  return Scales{*diameter, *youngs_modulus};
 }
 
 std::optional<double> read_friction(const fs::path& source) {

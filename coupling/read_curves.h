@@ -16,7 +16,8 @@ namespace bight::coupling {
 std::vector<ForceCurve> read_curves(const std::filesystem::path& source,
                                     const std::optional<Scales>& scales = {});
 
-/// Scales of the rod of a results folder; nothing for a measured file.
+/// Scales of the rod of a results folder, as its scene.toml says in SI; nothing for a measured
+/// file. What else the scene names (a centerline file) need not be there any more.
 std::optional<Scales> read_scales(const std::filesystem::path& source);
 
 /// Folders with centerline files in a results folder, by the names that their force curves have.

@@ -185,9 +185,9 @@ void measure(const Analysis& a, StudyCase& of) {
 
 std::vector<StudyCase::Gap> gaps(const RecordedStates& rod, const RecordedStates& solid) {
   std::vector<StudyCase::Gap> result;
-  for (const auto& [when, state] : rod)
-    if (const auto twin = solid.find(when); twin != solid.end() && twin->second.force != 0)
-      result.push_back({state.ebar, state.force / twin->second.force - 1});
+  for (const auto& state : rod)
+    if (const auto difference = force_difference(state, solid))
+      result.push_back({state.second.ebar, *difference});
   std::ranges::reverse(result);  // tightening
   return result;
 }

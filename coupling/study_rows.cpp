@@ -76,6 +76,13 @@ std::vector<StudyRow> read_rows(const std::filesystem::path& folder, size_t poin
   return rows;
 }
 
+std::optional<double> force_difference(const RecordedStates::value_type& state,
+                                       const RecordedStates& reference) {
+  const auto twin = reference.find(state.first);
+  if (twin == reference.end() || twin->second.force == 0) return std::nullopt;
+  return state.second.force / twin->second.force - 1;
+}
+
 std::optional<ResultError> error_against(const RecordedStates& states,
                                          const RecordedStates& reference) {
   ResultError error{};

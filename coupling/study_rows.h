@@ -51,6 +51,10 @@ std::string run_status(const std::filesystem::path& folder);
 std::vector<StudyRow> read_rows(const std::filesystem::path& folder, size_t point,
                                 const Scene& scene, const std::string& trouble);
 
+/// T of a state over that of the same one of the reference, less 1; nothing where there is none.
+std::optional<double> force_difference(const RecordedStates::value_type& state,
+                                       const RecordedStates& reference);
+
 /// Nothing when no ebar is recorded in both.
 std::optional<ResultError> error_against(const RecordedStates& states,
                                          const RecordedStates& reference);

@@ -44,6 +44,21 @@ std::string order_text(const std::optional<double>& order) {
 
 Json order_or_null(const std::optional<double>& order) { return order ? Json(*order) : Json(); }
 
+// What both tables begin with: the run and its values of the grid.
+std::string grid_names(const Study& plan) {
+  std::string text = "run";
+  for (const Dimension& dimension : plan.grid) text += fmt::format(",{}", dimension.key->path);
+  return text;
+}
+
+std::string grid_cells(const Study& plan, const StudyRow& row) {
+  const GridPoint& point = plan.points[row.point];
+  std::string text = cell(point.name);
+  for (size_t d = 0; d < plan.grid.size(); ++d)
+    text += ',' + cell(plan.grid[d].values[point.at[d]]);
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> sentences(const Study& plan, const std::vector<StudyRow>& rows,
@@ -86,16 +101,13 @@ std::vector<std::string> sentences(const Study& plan, const std::vector<StudyRow
 
 void write_study_csv(const std::filesystem::path& file, const Study& plan,
                      const std::vector<StudyRow>& rows) {
-  std::string text = "run";
-  for (const Dimension& dimension : plan.grid) text += fmt::format(",{}", dimension.key->path);
+  std::string text = grid_names(plan);
   text +=
       ",fidelity,status,reference,on_front,states,error_force_largest,error_force_mean,"
       "error_energy_largest,error_energy_mean,error_kappa_mean,wall_s,cpu_s,unknowns,peak_MB,"
       "steps,newton_iterations,reason\n";
   for (const StudyRow& row : rows) {
-    text += cell(plan.points[row.point].name);
-    for (size_t d = 0; d < plan.grid.size(); ++d)
-      text += ',' + cell(plan.grid[d].values[plan.points[row.point].at[d]]);
+    text += grid_cells(plan, row);
     const auto error = [&](double ResultError::*of) {
       return row.error ? cell(std::optional((*row.error).*of)) : "";
     };
@@ -112,29 +124,21 @@ void write_study_csv(const std::filesystem::path& file, const Study& plan,
 
 void write_states_csv(const std::filesystem::path& file, const Study& plan,
                       const std::vector<StudyRow>& rows, const std::vector<StudyCase>& cases) {
-  std::string text = "run";
-  for (const Dimension& dimension : plan.grid) text += fmt::format(",{}", dimension.key->path);
+  std::string text = grid_names(plan);
   text += ",fidelity,ebar,time,force_normalised,energy_J,error_force,error_force_solid\n";
   for (const StudyCase& of : cases) {
     const auto solid = std::ranges::find_if(cases, [&](const StudyCase& other) {
       return other.fidelity == "solid" && other.problem == of.problem;
     });
     for (const size_t row : of.rows)
-      for (const auto& [when, state] : rows[row].states) {
-        const auto error = [&](const RecordedStates& reference) -> std::optional<double> {
-          const auto twin = reference.find(when);
-          if (twin == reference.end() || twin->second.force == 0) return std::nullopt;
-          return state.force / twin->second.force - 1;
-        };
-        const GridPoint& point = plan.points[rows[row].point];
-        text += cell(point.name);
-        for (size_t d = 0; d < plan.grid.size(); ++d)
-          text += ',' + cell(plan.grid[d].values[point.at[d]]);
+      for (const auto& state : rows[row].states)
         text +=
-            fmt::format(",{},{:.9g},{},{:.9g},{:.9g},{},{}\n", of.fidelity, when.first, when.second,
-                        state.force, state.energy, cell(error(of.reference_states)),
-                        solid == cases.end() ? "" : cell(error(solid->reference_states)));
-      }
+            grid_cells(plan, rows[row]) +
+            fmt::format(
+                ",{},{:.9g},{},{:.9g},{:.9g},{},{}\n", of.fidelity, state.first.first,
+                state.first.second, state.second.force, state.second.energy,
+                cell(force_difference(state, of.reference_states)),
+                solid == cases.end() ? "" : cell(force_difference(state, solid->reference_states)));
   }
   write_whole(file, text);
 }

@@ -30,8 +30,8 @@ SolidEffects make_effects(std::span<const Mesh> strands, const SolidParameters& 
   SolidEffects effects;
   effects.strain = add<Strain>(effects.list, true, mesh, internal_begin, make_material(p.material),
                                element.quadrature, first_cell);
-  add<Hourglass>(effects.list, element.hourglass, mesh, p.material.shear_modulus(),
-                 p.hourglass_factor, first_cell);
+  effects.hourglass = add<Hourglass>(effects.list, element.hourglass, mesh,
+                                     p.material.shear_modulus(), p.hourglass_factor, first_cell);
   effects.contact = add<Contact>(effects.list, p.contact, strands,
                                  ContactLaw{p.contact_stiffness, p.contact_onset}, contact);
   if (effects.contact)

@@ -15,9 +15,10 @@ namespace bight::solid3d {
 /// that is not asked for is not built.
 struct SolidEffects {
   EffectList list;
-  Strain* strain = nullptr;      ///< in the list
-  Contact* contact = nullptr;    ///< in the list; null without contact
-  Friction* friction = nullptr;  ///< in the list; null without friction
+  Strain* strain = nullptr;        ///< in the list
+  Hourglass* hourglass = nullptr;  ///< in the list; null for elements that need none
+  Contact* contact = nullptr;      ///< in the list; null without contact
+  Friction* friction = nullptr;    ///< in the list; null without friction
 };
 
 /// `first_layer`: energy only of the rod beyond it, where the rest is its image (one strand).

@@ -75,8 +75,9 @@ SectionLoads section_loads(const Mesh& mesh, const SolidEffects& effects, const 
   };
   std::vector<Load> loads(static_cast<size_t>(layers));
   for (int k = 0; k < layers; ++k) loads[k].sides = (k > 0) + (k + 1 < layers);
-  for (const auto& effect : effects.list) {
-    if (effect->name() != "strain" && effect->name() != "hourglass") continue;
+  for (const Effect* effect :
+       {static_cast<Effect*>(effects.strain), static_cast<Effect*>(effects.hourglass)}) {
+    if (!effect) continue;
     for (int i = 0; i < effect->stencils(); ++i) {
       Eigen::Matrix<double, 24, 1> gradient = Eigen::Matrix<double, 24, 1>::Zero();
       ElementSlot slot{0, gradient.data(), nullptr};

@@ -124,6 +124,18 @@ TEST_CASE("a measurement in the units of the laboratory is laid on the rod's") {
   CHECK_THAT(refused("ebar,force_N,spread\n9,1,-1\n", scales), says("bad.csv:2: a spread"));
 }
 
+TEST_CASE("the scales of a result are read from its scene, whatever else that names") {
+  const TemporaryFolder folder;
+  CHECK_FALSE(read_scales(folder.path()));
+  folder.write("scene.toml",
+               "[rod]\ndiameter = 0.0083\n[material]\nyoungs_modulus = 1250000\n"
+               "[knot]\ncenterline = \"/gone/scan.csv\"\n");
+  const auto scales = read_scales(folder.path());
+  REQUIRE(scales);
+  CHECK(scales->diameter == 0.0083);
+  CHECK(scales->youngs_modulus == 1.25e6);
+}
+
 TEST_CASE("how much of a curve lies inside the spread of a measurement is said") {
   ForceCurve measured = sampled("measured", 1, law);
   for (const double force : measured.force) measured.spread.push_back(0.1 * force);

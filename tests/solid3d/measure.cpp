@@ -104,11 +104,10 @@ SolidEffects strain_alone(const Mesh& mesh) {
   return make_effects(mesh, parameters, 3 * mesh.nodes());
 }
 
-double energy(const Mesh& mesh, const SolidEffects& effects, Vector x) {
+double energy(const SolidEffects& effects, Vector x) {
   const Unknowns unknowns({}, 0, std::vector<bool>(static_cast<size_t>(x.size()), true));
   effects.strain->settle(x);
   Assembler assembler(unknowns, effects.list);
-  (void)mesh;
   return assembler.energy(x);
 }
 
@@ -128,7 +127,7 @@ TEST_CASE("moment and force of the first section are what turning and moving it 
     const Matrix3 R = Eigen::AngleAxisd(turn, t).toRotationMatrix();
     for (int n = 0; n < mesh.points_per_layer(); ++n)
       y.segment<3>(3 * n) = line[0] + R * (x.segment<3>(3 * n) - line[0]) + shift * t;
-    return energy(mesh, effects, y);
+    return energy(effects, y);
   };
   constexpr double h = 1e-5;
   CHECK(loads.twisting[0] == Approx(-(changed(h, 0) - changed(-h, 0)) / (2 * h)).epsilon(1e-5));
