@@ -9,6 +9,18 @@ namespace bight::solid3d {
 
 namespace {
 
+/// The same for control points on a circle, h apart in angle: weights of 1, cos and sin of h t,
+/// with which the spline of a regular polygon is a circle (of its radius times cos(h/2)).
+void trigonometric(double t, double h, std::array<double, 3>& w, std::array<double, 3>& dw,
+                   std::array<double, 3>& ddw) {
+  const double c = 0.25 / (std::sin(0.5 * h) * std::sin(0.5 * h));
+  const double below = h * (0.5 - t), above = h * (0.5 + t);
+  w[0] = c * (1 - std::cos(below)), w[2] = c * (1 - std::cos(above));
+  dw[0] = -c * h * std::sin(below), dw[2] = c * h * std::sin(above);
+  ddw[0] = c * h * h * std::cos(below), ddw[2] = c * h * h * std::cos(above);
+  w[1] = 1 - w[0] - w[2], dw[1] = -dw[0] - dw[2], ddw[1] = -ddw[0] - ddw[2];
+}
+
 /// Quadratic B-spline weights at t in [-1/2, 1/2] from the middle node, with derivatives.
 void quadratic(double t, std::array<double, 3>& w, std::array<double, 3>& dw,
                std::array<double, 3>& ddw) {
@@ -22,12 +34,8 @@ void quadratic(double t, std::array<double, 3>& w, std::array<double, 3>& dw,
 ContactSurface::ContactSurface(std::span<const Mesh> strands) {
   for (const Mesh& mesh : strands) {
     const int sides = static_cast<int>(mesh.section.rim.size());
-    // Mean radius of the spline of a regular polygon of radius R: between 3/4 + 1/4 cos(2 pi/n) at
-    // the nodes and cos^2(pi/n) .. half-way; both agree to 0.3 % of D at 8 sides.
     const double R = mesh.section.points[mesh.section.rim[0]].norm();
-    const double at_node = 0.75 + 0.25 * std::cos(2 * std::numbers::pi / sides);
-    const double between = std::cos(std::numbers::pi / sides);
-    const double skin = 0.5 * mesh.section.diameter - R * (2 * at_node + between) / 3;
+    const double skin = 0.5 * mesh.section.diameter - R * std::cos(std::numbers::pi / sides);
     const int first = layers();
     for (int k = 0; k < mesh.layers(); ++k) {
       strand_of_.push_back(static_cast<int>(strands_.size()));
@@ -57,7 +65,7 @@ PatchWeights ContactSurface::weights(double u, double v) const {
   w.around = static_cast<int>(std::lround(u));
   const int layer = std::clamp(static_cast<int>(std::lround(v)), 0, layers() - 1);
   w.along = std::clamp(layer, strand(layer).first + 1, strand(layer).last - 1);
-  quadratic(u - w.around, w.u, w.du, w.ddu);
+  trigonometric(u - w.around, 2 * std::numbers::pi / strand(layer).sides, w.u, w.du, w.ddu);
   quadratic(v - w.along, w.v, w.dv, w.ddv);
   return w;
 }

@@ -71,6 +71,15 @@ class ContactSurface {
   PatchWeights weights(double u, double v) const;
   SurfacePoint evaluate(const Vector& x, const PatchWeights& weights) const;
 
+  /// Of the equations y_u . d = y_v . d = 0 with d = point - y, minus the derivative by (u, v).
+  static Eigen::Matrix2d projection_matrix(const SurfacePoint& at, const Vector3& d) {
+    Eigen::Matrix2d M;
+    M(0, 0) = at.y_u.squaredNorm() - d.dot(at.y_uu);
+    M(1, 1) = at.y_v.squaredNorm() - d.dot(at.y_vv);
+    M(0, 1) = M(1, 0) = at.y_u.dot(at.y_v) - d.dot(at.y_uv);
+    return M;
+  }
+
   /// Parameters of the surface point nearest to `point`, by Newton's method from `start`; nothing
   /// when the search leaves the strand or does not settle.
   std::optional<Vector2> project(const Vector& x, const Vector3& point, Vector2 start) const;

@@ -40,8 +40,9 @@ class Friction final : public Effect {
   /// Freezes what the contact samples say of x, to which contact has been refreshed last; slips
   /// count from `start`, the newest accepted state. To be called between solves.
   void freeze(const Vector& x, const Vector& start);
-  /// Adds the change of the gradient with dx that comes of limits that follow the normal forces
-  /// (the spots' places and tangents kept): where frozen, t dx changes as t (dN/N).
+  /// Adds the change of the gradient with dx that freezing leaves out, to first order: limits
+  /// follow the normal forces, spots the points that face each other, their tangents turn with the
+  /// surface.
   void add_change(const Vector& x, const Vector& dx, Vector& gradient) const;
   /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
   void accept(const Vector& x);
@@ -54,19 +55,28 @@ class Friction final : public Effect {
   double sliding_share(const Vector& x) const;  ///< of the normal force, where spots slide
 
  private:
+  using Tangents = Eigen::Matrix<double, 3, 2>;
   struct Spot {
     int sample;  ///< its id
     double limit;
-    Vector3 normal;       ///< of the facing surface
     double limit_by_gap;  ///< dlimit/dgap over limit [1/D]
     PatchWeights own, facing;
     std::array<int, 54> coordinates;
-    Eigen::Matrix<double, 3, 2> tangents;
-    Vector2 before;  ///< m - E^T (x - y) at the start of the step
+    Tangents tangents;
+    Vector2 before;             ///< m - E^T (x - y) at the start of the step
+    Vector3 apart;              ///< x - y where it was frozen [D]
+    SurfacePoint here, there;   ///< both places of the surface, where it was frozen
+    Eigen::Matrix2d wandering;  ///< motion (du, dv) of the facing point by d(y_u . d, y_v . d)
+    Eigen::Matrix2d before_by_facing;  ///< dbefore/d(u, v) of the facing point
   };
+  /// Motion (du, dv) of the facing point, and change of the tangents, with a motion of the surface
+  /// under both places.
+  static Vector2 wander(const Spot& spot, const SurfacePoint& here, const SurfacePoint& there);
+  static Tangents turn(const Spot& spot, const SurfacePoint& here);
+
   FrictionLaw law(const Spot& spot) const { return FrictionLaw::with_limit(spot.limit); }
   Vector3 apart(const Vector& x, const Spot& spot) const;
-  Eigen::Matrix<double, 3, 2> tangents(const Vector& x, const PatchWeights& own) const;
+  static Tangents tangents(const SurfacePoint& at);
   Vector2 slip(const Vector& x, const Spot& spot) const;
 
   const Contact& contact_;
