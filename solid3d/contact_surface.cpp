@@ -9,24 +9,28 @@ namespace bight::solid3d {
 
 namespace {
 
-/// The same for control points on a circle, h apart in angle: weights of 1, cos and sin of h t,
-/// with which the spline of a regular polygon is a circle (of its radius times cos(h/2)).
-void trigonometric(double t, double h, std::array<double, 3>& w, std::array<double, 3>& dw,
-                   std::array<double, 3>& ddw) {
-  const double c = 0.25 / (std::sin(0.5 * h) * std::sin(0.5 * h));
-  const double below = h * (0.5 - t), above = h * (0.5 + t);
-  w[0] = c * (1 - std::cos(below)), w[2] = c * (1 - std::cos(above));
-  dw[0] = -c * h * std::sin(below), dw[2] = c * h * std::sin(above);
-  ddw[0] = c * h * h * std::cos(below), ddw[2] = c * h * h * std::cos(above);
-  w[1] = 1 - w[0] - w[2], dw[1] = -dw[0] - dw[2], ddw[1] = -ddw[0] - ddw[2];
-}
-
 /// Quadratic B-spline weights at t in [-1/2, 1/2] from the middle node, with derivatives.
 void quadratic(double t, std::array<double, 3>& w, std::array<double, 3>& dw,
                std::array<double, 3>& ddw) {
   w = {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)};
   dw = {t - 0.5, -2 * t, t + 0.5};
   ddw = {1, -2, 1};
+}
+
+/// The same for control points on a circle, h apart in angle: weights of 1, cos and sin of h t,
+/// with which the spline of a regular polygon is a circle, of its radius times cos(h/2).
+/// (Trigonometric B-splines: Lyche and Winther, J. Approx. Theory 25, 266, 1979.)
+void trigonometric(double t, double h, std::array<double, 3>& w, std::array<double, 3>& dw,
+                   std::array<double, 3>& ddw) {
+  const double ch = std::cos(0.5 * h), sh = std::sin(0.5 * h);
+  const double ct = std::cos(h * t), st = std::sin(h * t);
+  const double scale = 0.25 / (sh * sh);
+  const double cos_below = ch * ct + sh * st, cos_above = ch * ct - sh * st;  // of h (1/2 -+ t)
+  const double sin_below = sh * ct - ch * st, sin_above = sh * ct + ch * st;
+  w[0] = scale * (1 - cos_below), w[2] = scale * (1 - cos_above);
+  dw[0] = -scale * h * sin_below, dw[2] = scale * h * sin_above;
+  ddw[0] = scale * h * h * cos_below, ddw[2] = scale * h * h * cos_above;
+  w[1] = 1 - w[0] - w[2], dw[1] = -dw[0] - dw[2], ddw[1] = -ddw[0] - ddw[2];
 }
 
 }  // namespace

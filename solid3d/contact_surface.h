@@ -24,9 +24,11 @@ struct PatchWeights {
   std::array<double, 3> u, du, ddu, v, dv, ddv;
 };
 
-/// The skins of swept strands as C1 surfaces: the rim nodes are control points of a biquadratic
-/// B-spline, periodic around the strand. Facets ripple by 0.4 to 1 % of D and make frictionless
-/// surfaces feel rough; this surface is smooth, with closed-form derivatives and a 3 x 3 stencil.
+/// The skins of swept strands as C1 surfaces: the rim nodes are control points of a tensor-product
+/// B-spline, trigonometric and periodic around the strand (a round section is a circle, a flattened
+/// one an ellipse, exactly), quadratic along it. Facets ripple by 0.4 to 1 % of D and make
+/// frictionless surfaces feel rough; this surface is smooth, with closed-form derivatives and a
+/// 3 x 3 stencil.
 ///
 /// Every rim node (a, k) owns the patch u in [a - 1/2, a + 1/2], v in [k - 1/2, k + 1/2]. The
 /// spline of a round section lies inside its control points; `skin` is what is missing to its

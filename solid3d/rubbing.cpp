@@ -4,15 +4,26 @@ namespace bight::solid3d {
 
 namespace {
 
-/// Iterations with the last state's friction, which bring contact forces into range, and those with
-/// the whole tangent, at most; and their tolerances relative to the force scale.
-constexpr int few_first = 3, most_coupled = 40;
-constexpr double first_tolerance = 1e-2, coupled_tolerance = 5e-7;
+/// Iterations with the last state's friction, which bring contact forces into range; with the whole
+/// tangent, at most: mostly they are 4, and those that wander do not come back.
+constexpr int few_first = 3, most_coupled = 15, most_coupled_again = 25;
+/// Relative to the force scale. The energy of the last step is the square of what it leaves.
+constexpr double first_tolerance = 1e-2, energy_tolerance = 5e-7, force_tolerance = 1e-5;
 
-NewtonOptions within(NewtonOptions options, int iterations, double tolerance) {
+NewtonOptions within(NewtonOptions options, int iterations, double energy, double force) {
   options.max_iterations = iterations;
-  options.force_tolerance = options.energy_tolerance = tolerance;
+  options.energy_tolerance = energy;
+  options.force_tolerance = force;
   return options;
+}
+
+NewtonResult coupled(System& system, Rubbing& rubbing, const NewtonResult& begun, int iterations,
+                     const NewtonOptions& options, double scale, const NewtonObserver& observer) {
+  NewtonResult result = coupled_newton(
+      system, rubbing, begun.x,
+      within(options, iterations, energy_tolerance * scale, force_tolerance * scale), observer);
+  result.count_on(begun);
+  return result;
 }
 
 }  // namespace
@@ -30,20 +41,25 @@ void Rubbing::add_change(const Vector& dx, Vector& gradient) const {
 NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& guess,
                             const NewtonOptions& options, double scale,
                             const NewtonObserver& observer) {
-  rubbing.freeze(rubbing.from());
-  const NewtonResult begun =
-      newton(system, guess, within(options, few_first, first_tolerance * scale), observer);
-  return newton_rubbing_on(system, rubbing, begun, options, scale, observer);
+  const double tolerance = first_tolerance * scale;
+  const auto as_before = [&](const Vector& x, int iterations) {
+    rubbing.freeze(rubbing.from());
+    return newton(system, x, within(options, iterations, tolerance, tolerance), observer);
+  };
+  const NewtonResult begun = as_before(guess, few_first);
+  const NewtonResult result =
+      coupled(system, rubbing, begun, most_coupled, options, scale, observer);
+  if (result.ok()) return result;
+  NewtonResult nearer = as_before(begun.x, options.max_iterations);
+  nearer.count_on(result);
+  if (!nearer.ok()) return nearer;
+  return coupled(system, rubbing, nearer, most_coupled_again, options, scale, observer);
 }
 
 NewtonResult newton_rubbing_on(System& system, Rubbing& rubbing, const NewtonResult& solved,
                                const NewtonOptions& options, double scale,
                                const NewtonObserver& observer) {
-  NewtonResult result =
-      coupled_newton(system, rubbing, solved.x,
-                     within(options, most_coupled, coupled_tolerance * scale), observer);
-  result.count_on(solved);
-  return result;
+  return coupled(system, rubbing, solved, most_coupled_again, options, scale, observer);
 }
 
 }  // namespace bight::solid3d

@@ -88,10 +88,10 @@ void run(Case c) {
     if (c.each_step)
       std::printf(
           "  %8.3f  T %.6f  it %3d cut %d %s pen %.4f pairs %d J %.3f mis %.1e"
-          " diss %.3e  %.1f s\n",
+          " diss %.3e turn %.3f  %.1f s\n",
           row.ebar, normalised(row.tension), row.newton_iterations, row.cutbacks,
           row.cut_reason.c_str(), row.max_penetration, row.contact_pairs, row.min_jacobian,
-          row.reaction_mismatch, row.dissipated, row.wall_s);
+          row.reaction_mismatch, row.dissipated, row.end_turn, row.wall_s);
     std::fflush(stdout);
   };
   if (c.each_iteration)

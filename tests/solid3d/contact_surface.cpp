@@ -10,14 +10,14 @@ using namespace bight;
 using namespace bight::solid3d;
 
 TEST_CASE("the skin of a straight rod is a cylinder of diameter D") {
-  for (const auto& [cells, ripple] : std::vector<std::pair<int, double>>{{12, 2e-3}, {32, 2e-4}}) {
+  for (const int cells : {12, 32}) {
     const Mesh mesh = test::straight_mesh(cells, 3.0, 1.0);
     const ContactSurface surface(mesh);
     const Vector x = test::reference_state(mesh, 0);
     for (double u = 0; u < surface.sides(); u += 0.13) {
       const SurfacePoint p = surface.evaluate(x, surface.weights(u, 4.3));
-      CHECK(p.y.head<2>().norm() + surface.skin() == Approx(0.5).margin(ripple));
-      CHECK(p.normal.dot(Vector3(p.y.x(), p.y.y(), 0).normalized()) > 0.999);
+      CHECK(p.y.head<2>().norm() + surface.skin() == Approx(0.5).epsilon(1e-12));
+      CHECK(p.normal.dot(Vector3(p.y.x(), p.y.y(), 0).normalized()) == Approx(1).epsilon(1e-12));
     }
     double area = 0;
     for (int patch = 0; patch < surface.patches(); ++patch)

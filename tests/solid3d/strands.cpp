@@ -79,7 +79,7 @@ TEST_CASE("patches of strands with different sections know their place") {
   const Vector x = crossing.state();
   for (const double u : {0.2, 5.7}) {
     const SurfacePoint thin = surface.evaluate(x, surface.weights(u, 3.3));
-    CHECK(thin.y.head<2>().norm() + surface.skin(3) == Approx(0.5).margin(2e-3));
+    CHECK(thin.y.head<2>().norm() + surface.skin(3) == Approx(0.5).epsilon(1e-12));
   }
   double area = 0;
   for (int k = last + 1; k < surface.layers(); ++k)
