@@ -21,7 +21,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PathProgress, leg, ebar, step, so_far)
 namespace solid3d {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SolidState, ebar, s, curvature, flattening, tension,
-                                   min_jacobian, determinant, energy_by_effect)
+                                   min_jacobian, determinant, skin_crossings, energy_by_effect)
 
 }  // namespace solid3d
 

@@ -154,6 +154,9 @@ void Recorder::write(Files& files, const solid3d::Mesh& mesh, const solid3d::Sol
                     {"bending_moment", times(state.loads.bending, normalised_moment)},
                     {"twisting_moment", times(state.loads.twisting, normalised_moment)}});
   write_solid_vtu(files.folder / "vtu" / (name + ".vtu"), mesh, state, scene_.scales());
+  if (state.skin_crossings > 0)
+    progress.say(fmt::format("the surface cuts itself at ebar {:.6g}: {} pairs of triangles",
+                             state.ebar, state.skin_crossings));
   files.series.add(state.ebar, "vtu/" + name + ".vtu");
 }
 

@@ -8,6 +8,7 @@
 
 #include "mechanics/knot_type.h"
 #include "solid3d/section_motion.h"
+#include "solid3d/skin_crossings.h"
 
 namespace bight::solid3d {
 
@@ -141,6 +142,9 @@ SolidState fields(const Mesh& mesh, const SolidEffects& effects, const Vector& x
   }
   for (size_t n = 0; n < samples.size(); ++n)
     if (samples[n] > 0) state.contact_pressure[n] /= samples[n];
+  constexpr double hair = 0.002;  // [D]
+  state.skin_crossings =
+      skin_crossings(surface, x, 0.5 * effects.contact->max_penetration() + hair);
   return state;
 }
 

@@ -57,6 +57,7 @@ struct SolidState {
   double tension = 0;                    ///< [E D^2]
   double min_jacobian = 1;
   int determinant = 0;                             ///< of the closed centerline
+  int skin_crossings = 0;  ///< pairs of triangles that cut each other beyond the overlap of contact
   std::map<std::string, double> energy_by_effect;  ///< [E D^3]
 };
 
