@@ -78,7 +78,7 @@ std::vector<ExpectedCost> expected_solid(const Scene& scene, const solid3d::Mesh
   const solid3d::Grip grip{parameters.finish_turns};
   const int internal = grip.coordinates(mesh);
   const solid3d::SolidEffects effects = make_effects(mesh, parameters, internal);
-  const Unknowns unknowns = grip.unknowns(mesh, internal + 2 * static_cast<int>(mesh.cells.size()));
+  const Unknowns unknowns = grip.unknowns(mesh, internal + effects.strain->internals());
   const double spacing = parameters.sample_spacing;
   auto costs = expected(Assembler(unknowns, effects.list), of_solid, 1 / (spacing * spacing));
   // A layer couples with the next, of b unknowns each: 7/3 b^3, and contact about doubles that.

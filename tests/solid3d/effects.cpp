@@ -259,9 +259,9 @@ TEST_CASE("dilatation and pressure: recovered by the linear part of settling, wo
     off[positions + 2 * cell] += t;
     pressed[positions + 2 * cell] += t;
     pressed[positions + 2 * cell + 1] += 1;
-    HexNodes X;
+    HexNodes<1> X;
     for (int a = 0; a < 8; ++a) X.col(a) = mesh.reference(mesh.cells[cell][a]);
-    volume += hex_reference(X).volume;
+    volume += hex_reference<1>(X).volume;
   }
   CHECK(energy(pressed) - energy(off) == Approx(-volume * t));
   CHECK(energy(off) - energy(x) == Approx(0.5 * volume * t * t * (20 * mu + mu)));

@@ -26,7 +26,7 @@ std::vector<Rubber> rubbers() {
 /// A distorted patch with all of its surface moved by F x.
 test::HexProblem moved_patch(const Material& material, const HexElement& element,
                              const Matrix3& F) {
-  test::HexProblem problem(test::distorted_patch(), material, element);
+  test::HexProblem problem(test::distorted_patch(element.degree), material, element);
   problem.each([](const Vector3& X) { return X.minCoeff() == 0 || X.maxCoeff() == 1; },
                [&](int node) { problem.hold(node); });
   problem.each([](const Vector3&) { return true; },
@@ -42,7 +42,7 @@ TEST_CASE(
     for (const Rubber& rubber : rubbers())
       for (const double l : {0.5, 2.0}) {
         CAPTURE(element.name, rubber.name, l);
-        test::HexProblem problem(test::distorted_patch(), rubber.material, element);
+        test::HexProblem problem(test::distorted_patch(element.degree), rubber.material, element);
         const Vector3 stretch(1 / std::sqrt(l), 1 / std::sqrt(l), l);
         problem.each([](const Vector3&) { return true; },
                      [&](int node) {
