@@ -30,13 +30,15 @@ class CellStiffness {
     const Eigen::Matrix<double, nodes, 3> N = dN.transpose();
     int pair = 0;
     for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j, ++pair)
-        for (int K = 0; K < 3; ++K) {
-          const Eigen::Matrix<double, nodes, 1> over_b = A(i + 3 * K, j) * N.col(0) +
-                                                         A(i + 3 * K, j + 3) * N.col(1) +
-                                                         A(i + 3 * K, j + 6) * N.col(2);
-          for (int a = 0; a < nodes; ++a) block_[pair].col(a) += N(a, K) * over_b;
-        }
+      for (int j = i; j < 3; ++j, ++pair) {
+        Eigen::Matrix<double, nodes, 3> over_b;
+        for (int K = 0; K < 3; ++K)
+          over_b.col(K) = A(i + 3 * K, j) * N.col(0) + A(i + 3 * K, j + 3) * N.col(1) +
+                          A(i + 3 * K, j + 6) * N.col(2);
+        for (int a = 0; a < nodes; ++a)
+          block_[pair].col(a) += N(a, 0) * over_b.col(0) + N(a, 1) * over_b.col(1) +
+                                 N(a, 2) * over_b.col(2);
+      }
   }
   template <class Matrix>
   void put(Matrix& H) const {

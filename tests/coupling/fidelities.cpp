@@ -34,9 +34,12 @@ const rod1d::RodState& seed() {
 }
 
 solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr,
-                             bool symmetry = true, double friction = 0, int cells = 12) {
-  const solid3d::Mesh mesh = swept_mesh({.section_elements = cells, .axial_ratio = 1.0}, seed());
+                             bool symmetry = true, double friction = 0, int cells = 12,
+                             int degree = 1) {
+  const solid3d::Mesh mesh =
+      swept_mesh({.section_elements = cells, .degree = degree, .axial_ratio = 1.0}, seed());
   solid3d::SolidParameters parameters;
+  parameters.element = degree == 1 ? "three-field" : "quadratic";
   parameters.expected_tension = seed().tension;
   parameters.path.waypoints = {seed_ebar, to};
   parameters.path.record = {seed_ebar, to};
@@ -230,6 +233,42 @@ TEST_CASE("half of a symmetric knot and its image are the whole knot") {
     for (const char* effect : {"strain", "contact"})
       CHECK(half_states[i].energy_by_effect.at(effect) ==
             Approx(whole_states[i].energy_by_effect.at(effect)).epsilon(1e-3));
+}
+
+TEST_CASE("a knot of quadratic cells is tightened, halved, confirmed and held by friction alike") {
+  std::vector<solid3d::SolidState> states;
+  const auto half = tighten(19, &states, true, 0, 5, 2);
+  const auto whole = tighten(19, nullptr, false, 0, 5, 2);
+  const auto linear = tighten(19, nullptr, true, 0, 32);
+  for (const auto* result : {&half, &whole, &linear})
+    REQUIRE(result->outcome.status == PathStatus::finished);
+  REQUIRE(half.symmetric);
+  const StepRow& row = half.steps.back();
+  CHECK(row.reaction_mismatch < 1e-6);
+  CHECK(row.residual < 1e-6);
+  CHECK(row.tension == Approx(whole.steps.back().tension).epsilon(1e-3));
+  CHECK(row.tension == Approx(linear.steps.back().tension).epsilon(0.03));
+  for (const auto& state : states) CHECK(state.determinant == 3);
+
+  const auto mesh_of = [&](int cells) {
+    return swept_mesh({.section_elements = cells, .degree = 2, .axial_ratio = 1.0}, seed());
+  };
+  const solid3d::Mesh coarse = mesh_of(5), fine = mesh_of(12);
+  solid3d::SolidParameters parameters;
+  parameters.element = "quadratic";
+  parameters.expected_tension = row.tension;
+  parameters.penetration = tight_bound;
+  parameters.path.waypoints = {19};
+  const auto found = solid3d::run_solid(
+      fine, solid3d::transferred(coarse, states.back().nodes, fine), 19, parameters);
+  REQUIRE(found.outcome.status == PathStatus::finished);
+  CHECK(found.outcome.iterations <= 20);
+  CHECK(found.steps[0].tension == Approx(linear.steps.back().tension).epsilon(0.01));
+
+  const auto rough = tighten(19, nullptr, true, 0.1, 5, 2);
+  REQUIRE(rough.outcome.status == PathStatus::finished);
+  CHECK(rough.steps.back().tension > 1.2 * row.tension);
+  CHECK(rough.steps.back().dissipated > 0);
 }
 
 TEST_CASE("friction of the solid holds the knot, and work goes into energy and dissipation") {
