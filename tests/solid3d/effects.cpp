@@ -24,7 +24,7 @@ struct Wound {
   SolidEffects effects;
 
   explicit Wound(const HexElement& element = hex_elements()[0])
-      : mesh(test::straight_mesh(element.degree == 1 ? 12 : 5, 2.12 * M_PI * radius, 1.0,
+      : mesh(test::straight_mesh(element.degree == 1 ? 12 : 5, 2.12 * M_PI * radius, element.degree,
                                  element.degree)) {
     SolidParameters parameters;
     parameters.element = element.name;
