@@ -36,8 +36,8 @@ class CellStiffness {
           over_b.col(K) = A(i + 3 * K, j) * N.col(0) + A(i + 3 * K, j + 3) * N.col(1) +
                           A(i + 3 * K, j + 6) * N.col(2);
         for (int a = 0; a < nodes; ++a)
-          block_[pair].col(a) += N(a, 0) * over_b.col(0) + N(a, 1) * over_b.col(1) +
-                                 N(a, 2) * over_b.col(2);
+          block_[pair].col(a) +=
+              N(a, 0) * over_b.col(0) + N(a, 1) * over_b.col(1) + N(a, 2) * over_b.col(2);
       }
   }
   template <class Matrix>
