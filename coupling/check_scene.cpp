@@ -9,6 +9,7 @@
 #include "coupling/errors.h"
 #include "coupling/knot_start.h"
 #include "coupling/scene_material.h"
+#include "solid3d/elements.h"
 
 namespace bight::coupling {
 namespace {
@@ -121,6 +122,10 @@ class Check {
     if (segment > 0.5 && !scene_.follow_knot)
       warn("rod1d.segments",
            fmt::format("segments of {:.2g} D are too long for smooth contact", segment));
+    if (solid3d::hex_element(scene_.element).degree == 1)
+      for (const char* key : {"solid3d.section_elements", "solid3d.confirm_elements"})
+        if (values_.has(key) && values_.number(key) < 12)
+          refuse(key, "fewer than 12 hexahedra are only for solid3d.element = \"quadratic\"");
   }
 
   void ends() {

@@ -24,10 +24,8 @@ std::vector<Confirmation> confirm(const Scene& scene, const solid3d::Mesh& mesh,
   std::vector<Confirmation> confirmed;
   for (const solid3d::SolidState& state : recorder.solid_states) {
     if (state.nodes.empty()) continue;
-    const solid3d::Mesh fine = swept_mesh({.section_elements = scene.confirm_elements,
-                                           .axial_ratio = scene.axial_ratio,
-                                           .tail_ratio = scene.tail_ratio},
-                                          centerline_of(state));
+    const solid3d::Mesh fine =
+        swept_mesh(sweep_options(scene, scene.confirm_elements), centerline_of(state));
     solid3d::SolidParameters parameters = solid_parameters(scene);
     parameters.expected_tension = state.tension;
     parameters.path.waypoints = parameters.path.record = {state.ebar};

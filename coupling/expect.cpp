@@ -7,6 +7,7 @@
 #include "coupling/effects.h"
 #include "coupling/expect_effects.h"
 #include "rod1d/knots.h"
+#include "solid3d/elements.h"
 #include "solid3d/mesh.h"
 
 namespace bight::coupling {
@@ -43,7 +44,8 @@ std::string rod_line(const Scene& scene) {
 
 // The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
 solid3d::Mesh expected_mesh(const Scene& scene, int cells, double ebar) {
-  const solid3d::Section section = solid3d::make_section(cells);
+  const solid3d::Section section =
+      solid3d::make_section(cells, solid3d::hex_element(scene.element).degree);
   const double width = section.cell_width();
   const double middle = 0.5 * scene.slenderness();
   const double half = std::min(middle, 0.5 * (ebar + 6));
@@ -59,7 +61,7 @@ std::string size_text(const Scene& scene, const solid3d::Mesh& mesh) {
   const double of_half = 10.5e3 * 3 * mesh.nodes() + 2.2 * 8 * mesh.layers() * block * block;
   const double gigabytes = 0.04 + of_half * (scene.symmetry ? 1 : 2) / 1e9;
   return fmt::format("{} cells in a section, about {} layers, {} cells, {} unknowns, {:.1f} GB\n",
-                     mesh.section.quads.size(), mesh.layers(), mesh.cells.size(), 3 * mesh.nodes(),
+                     mesh.section.cells(), mesh.layers(), mesh.cells.size(), 3 * mesh.nodes(),
                      gigabytes);
 }
 

@@ -28,6 +28,8 @@ constexpr Measured of_rod[] = {{"stretch", 3e-6},       {"bend", 4.3e-6},   {"tw
                                {"friction", 54e-6, 0.1}};
 constexpr Measured of_solid[] = {
     {"strain", 26e-6}, {"hourglass", 8e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};
+constexpr Measured of_quadratic[] = {
+    {"strain", 220e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};
 constexpr double rod_solve = 3.6e-6;  // per unknown
 constexpr double large_block = 200;   // of a factorisation, which is slower with smaller ones
 constexpr double flops = 1e10;        // per second, with large ones
@@ -78,13 +80,17 @@ std::vector<ExpectedCost> expected_solid(const Scene& scene, const solid3d::Mesh
   const solid3d::Grip grip{parameters.finish_turns};
   const int internal = grip.coordinates(mesh);
   const solid3d::SolidEffects effects = make_effects(mesh, parameters, internal);
-  const Unknowns unknowns = grip.unknowns(mesh, internal + 2 * static_cast<int>(mesh.cells.size()));
+  const Unknowns unknowns = grip.unknowns(mesh, internal + effects.strain->internals());
   const double spacing = parameters.sample_spacing;
-  auto costs = expected(Assembler(unknowns, effects.list), of_solid, 1 / (spacing * spacing));
-  // A layer couples with the next, of b unknowns each: 7/3 b^3, and contact about doubles that.
+  const bool quadratic = mesh.degree() == 2;
+  auto costs = expected(Assembler(unknowns, effects.list),
+                        quadratic ? std::span<const Measured>(of_quadratic) : of_solid,
+                        1 / (spacing * spacing));
+  // A layer couples with the next, of b unknowns each: 7/3 b^3, and contact about doubles that. Of
+  // quadratic cells three couple at once: 19/3 and 7/3 b^3 in turn.
   const double b = 3.0 * mesh.points_per_layer(), slow = std::min(1.0, b / large_block);
-  finish(costs, mesh.layers() * 7.0 / 3 * b * b * b * (parameters.contact ? 2 : 1) /
-                    (flops * slow * slow));
+  finish(costs, mesh.layers() * (quadratic ? 13.0 : 7.0) / 3 * b * b * b *
+                    (parameters.contact ? 2 : 1) / (flops * slow * slow));
   return costs;
 }
 

@@ -29,10 +29,7 @@ void run_seeded_solid(const Scene& scene, Recorder& recorder, const std::optiona
                       RunReport& report) {
   recorder.phases.enter("seed");
   const rod1d::RodState& seed = *recorder.seed;
-  const solid3d::Mesh mesh = swept_mesh({.section_elements = scene.section_elements,
-                                         .axial_ratio = scene.axial_ratio,
-                                         .tail_ratio = scene.tail_ratio},
-                                        seed);
+  const solid3d::Mesh mesh = swept_mesh(sweep_options(scene, scene.section_elements), seed);
   const std::vector<Vector3> start = sweep(mesh, seed);
   solid3d::SolidParameters parameters = solid_parameters(scene);
   parameters.expected_tension = seed.tension;

@@ -13,6 +13,7 @@
 #include "coupling/knot_start.h"
 #include "coupling/scene_material.h"
 #include "coupling/values.h"
+#include "solid3d/elements.h"
 
 namespace bight::coupling {
 namespace {
@@ -49,8 +50,10 @@ void derive_defaults(Values& values) {
     derive(values, "path.record", waypoints);
     derive(values, "solid3d.seed_ebar", waypoints.front());
   }
+  const bool quadratic = solid3d::hex_element(values.word("solid3d.element")).degree == 2;
+  derive(values, "solid3d.section_elements", quadratic ? 12.0 : 32.0);
   if (!values.get<std::vector<double>>("solid3d.confirm_at").empty())
-    derive(values, "solid3d.confirm_elements", 60.0);
+    derive(values, "solid3d.confirm_elements", quadratic ? 21.0 : 60.0);
   // An even number puts a node in the middle, where a symmetric knot can be held.
   const double slenderness = values.number("rod.length") / values.number("rod.diameter");
   derive(values, "rod1d.follow_knot", straight && !values.get<bool>("effects.inertia"));
@@ -206,6 +209,13 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   if (scene.solid && std::ranges::count(rod.path.record, scene.seed_ebar) == 0)
     rod.path.record.push_back(scene.seed_ebar);
   return rod;
+}
+
+SweepOptions sweep_options(const Scene& scene, int section_elements) {
+  return {.section_elements = section_elements,
+          .degree = solid3d::hex_element(scene.element).degree,
+          .axial_ratio = scene.axial_ratio,
+          .tail_ratio = scene.tail_ratio};
 }
 
 solid3d::SolidParameters solid_parameters(const Scene& scene) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/sweep.h"
 #include "coupling/units.h"
 #include "mechanics/path.h"
 #include "mechanics/types.h"
@@ -72,5 +73,7 @@ Path path_from_seed(const Path& path, double seed_ebar);
 /// What the models need, in their own units. The rod records seed_ebar when a solid follows.
 rod1d::RodParameters rod_parameters(const Scene& scene);
 solid3d::SolidParameters solid_parameters(const Scene& scene);
+/// Of a mesh with about that many cells in a section.
+SweepOptions sweep_options(const Scene& scene, int section_elements);
 
 }  // namespace bight::coupling

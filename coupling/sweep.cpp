@@ -66,7 +66,7 @@ double roll_of_middle(const solid3d::Mesh& mesh, const std::vector<Matrix3>& fra
 }  // namespace
 
 solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod) {
-  const solid3d::Section section = solid3d::make_section(options.section_elements);
+  const solid3d::Section section = solid3d::make_section(options.section_elements, options.degree);
   const double width = section.cell_width();
   // The knot: where kappa D is above most_bent, or above a part of the largest one. Tails are
   // nearly straight; those of a loose knot are not, against its own curvature.

@@ -10,7 +10,9 @@ namespace bight::coupling {
 /// How fine the swept mesh is.
 struct SweepOptions {
   int section_elements = 32;
-  double axial_ratio = 0.8;  ///< cell length over section cell width, in the knot
+  int degree = 1;            ///< of the cells
+  double axial_ratio = 0.8;  ///< cell length over section cell width, in the knot: of either degree
+                             ///< the surface grid is as fine around as along
   double tail_ratio = 3.0;   ///< the same at the ends of the tails
   double knot_margin = 2.0;  ///< fine cells reach this far beyond the knot [D]
 };

@@ -47,6 +47,14 @@ void add_field(vtkDataSetAttributes* attributes, const char* name,
   attributes->AddArray(array);
 }
 
+// Values by these numbers; none of a field that was not filled in.
+std::vector<double> at(const std::vector<double>& values, const std::vector<int>& numbers) {
+  std::vector<double> taken;
+  if (values.empty()) return taken;
+  for (const int number : numbers) taken.push_back(values[number]);
+  return taken;
+}
+
 void write_grid(const std::filesystem::path& file, vtkUnstructuredGrid* grid) {
   const std::string beside = file.string() + ".part";
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -88,20 +96,29 @@ void write_solid_vtu(const std::filesystem::path& file, const solid3d::Mesh& mes
                      const solid3d::SolidState& state, const Scales& scales) {
   vtkNew<vtkUnstructuredGrid> grid;
   set_points(grid, state.nodes, scales.length());
-  grid->Allocate(static_cast<vtkIdType>(mesh.cells.size()));
-  for (const auto& cell : mesh.cells) {
-    std::array<vtkIdType, 8> nodes;
-    std::copy(cell.begin(), cell.end(), nodes.begin());
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
-  }
+  // A cell of second degree is shown as the eight hexahedra of its nodes, which every filter knows.
+  std::vector<int> cells;
+  const int degree = mesh.degree(), intervals = mesh.layers() - 1;
+  const int quads = static_cast<int>(mesh.section.quads.size());
+  grid->Allocate(static_cast<vtkIdType>(intervals) * quads);
+  for (int k = 0; k < intervals; ++k)
+    for (int q = 0; q < quads; ++q) {
+      std::array<vtkIdType, 8> nodes;
+      for (int i = 0; i < 4; ++i) {
+        nodes[i] = mesh.node(k, mesh.section.quads[q][i]);
+        nodes[4 + i] = mesh.node(k + 1, mesh.section.quads[q][i]);
+      }
+      grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
+      cells.push_back(mesh.cells_before(k) + q / (degree * degree));
+    }
   std::vector<Vector3> reference;
   for (int i = 0; i < mesh.nodes(); ++i) reference.push_back(mesh.reference(i));
   add_field(grid->GetPointData(), "reference", reference, scales.length());
   add_field(grid->GetPointData(), "contact_pressure", state.contact_pressure, scales.stress());
   add_field(grid->GetPointData(), "gap", state.gap, scales.length());
-  add_field(grid->GetCellData(), "J", state.jacobian);
-  add_field(grid->GetCellData(), "pressure", state.pressure, scales.stress());
-  add_field(grid->GetCellData(), "von_mises", state.von_mises, scales.stress());
+  add_field(grid->GetCellData(), "J", at(state.jacobian, cells));
+  add_field(grid->GetCellData(), "pressure", at(state.pressure, cells), scales.stress());
+  add_field(grid->GetCellData(), "von_mises", at(state.von_mises, cells), scales.stress());
   write_grid(file, grid);
 }
 

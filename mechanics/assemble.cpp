@@ -13,8 +13,13 @@ namespace {
 
 /// Elements are computed and scattered by chunks of this many: small enough for the cache.
 constexpr int chunk_size = 512;
-/// Below this many stencils an effect is cheaper on one thread.
-constexpr int parallel_from = 512;
+/// Below this many stencils an effect is cheaper on one thread; of large ones, below fewer.
+constexpr int parallel_from = 512, small_stencil = 54;
+
+int threads_for(int stencils, size_t coordinates) {
+  const double size = std::max(1.0, static_cast<double>(coordinates) / small_stencil);
+  return stencils * size * size < parallel_from ? 1 : omp_get_max_threads();
+}
 
 }  // namespace
 
@@ -129,7 +134,7 @@ double Assembler::assemble(const Vector& x, Order order, Vector& gradient) {
   for (const auto& effect : effects_) {
     const Timed timed(seconds_by_effect_[std::string(effect->name())]);
     const int count = effect->stencils();
-    const int threads = count < parallel_from ? 1 : omp_get_max_threads();
+    const int threads = count == 0 ? 1 : threads_for(count, effect->coordinates(0).size());
     double sum = 0;
     for (int begin = 0; begin < count && total < inadmissible; begin += chunk_size) {
       chunk.used = std::min(chunk_size, count - begin);

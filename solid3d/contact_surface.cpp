@@ -33,6 +33,14 @@ void trigonometric(double t, double h, std::array<double, 3>& w, std::array<doub
   w[1] = 1 - w[0] - w[2], dw[1] = -dw[0] - dw[2], ddw[1] = -ddw[0] - ddw[2];
 }
 
+/// Lagrange's parabolas at t in [-1, 1] over the nodes -1, 0, 1, with derivatives.
+void parabola(double t, std::array<double, 3>& w, std::array<double, 3>& dw,
+              std::array<double, 3>& ddw) {
+  w = {0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)};
+  dw = {t - 0.5, -2 * t, t + 0.5};
+  ddw = {1, -2, 1};
+}
+
 }  // namespace
 
 ContactSurface::ContactSurface(std::span<const Mesh> strands) {
@@ -40,6 +48,11 @@ ContactSurface::ContactSurface(std::span<const Mesh> strands) {
     const int sides = static_cast<int>(mesh.section.rim.size());
     const double R = mesh.section.points[mesh.section.rim[0]].norm();
     const double skin = 0.5 * mesh.section.diameter - R * std::cos(std::numbers::pi / sides);
+    // Radius of a parabola through three points half-way between two of them.
+    const Vector2 half_way(0.75 + 0.25 * std::cos(2 * std::numbers::pi / sides),
+                           0.5 * std::sin(2 * std::numbers::pi / sides));
+    const double face_skin =
+        mesh.degree() == 1 ? skin : 0.5 * mesh.section.diameter - R * (1 + 2 * half_way.norm()) / 3;
     const int first = layers();
     for (int k = 0; k < mesh.layers(); ++k) {
       strand_of_.push_back(static_cast<int>(strands_.size()));
@@ -50,7 +63,8 @@ ContactSurface::ContactSurface(std::span<const Mesh> strands) {
         first_.push_back(3 * mesh.node(k, point));
       }
     }
-    strands_.push_back({sides, first, layers() - 1, mesh.section.diameter, skin});
+    strands_.push_back(
+        {mesh.degree(), sides, first, layers() - 1, mesh.section.diameter, skin, face_skin});
   }
 }
 
@@ -71,6 +85,18 @@ PatchWeights ContactSurface::weights(double u, double v) const {
   w.along = std::clamp(layer, strand(layer).first + 1, strand(layer).last - 1);
   trigonometric(u - w.around, 2 * std::numbers::pi / strand(layer).sides, w.u, w.du, w.ddu);
   quadratic(v - w.along, w.v, w.dv, w.ddv);
+  return w;
+}
+
+PatchWeights ContactSurface::face_weights(double u, double v) const {
+  PatchWeights w = weights(u, v);
+  const Strand& on = strand(w.along);
+  if (on.degree == 1) return w;
+  w.around = 2 * static_cast<int>(std::floor(0.5 * u)) + 1;
+  w.along = on.first + 2 * static_cast<int>(std::floor(0.5 * (v - on.first))) + 1;
+  w.along = std::clamp(w.along, on.first + 1, on.last - 1);
+  parabola(u - w.around, w.u, w.du, w.ddu);
+  parabola(v - w.along, w.v, w.dv, w.ddv);
   return w;
 }
 

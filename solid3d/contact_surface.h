@@ -71,6 +71,13 @@ class ContactSurface {
   Vector2 extent(int patch) const;
 
   PatchWeights weights(double u, double v) const;
+
+  /// The same of the cells' own faces where these are of second degree: biquadratic over the 3 x 3
+  /// nodes of a face, continuous, on the circle at its nodes. Loads on them reach the nodes as the
+  /// cells need them (four times as much in the middle of a side as at its ends), those of a spline
+  /// reach all nodes alike.
+  PatchWeights face_weights(double u, double v) const;
+  double face_skin(int along = 0) const { return strand(along).face_skin; }
   SurfacePoint evaluate(const Vector& x, const PatchWeights& weights) const;
 
   /// Of the equations y_u . d = y_v . d = 0 with d = point - y, minus the derivative by (u, v).
@@ -88,8 +95,8 @@ class ContactSurface {
 
  private:
   struct Strand {
-    int sides, first, last;  ///< first and last layer
-    double diameter, skin;
+    int degree, sides, first, last;  ///< first and last layer
+    double diameter, skin, face_skin;
   };
   const Strand& strand(int along) const { return strands_[strand_of_[along]]; }
 

@@ -1,5 +1,7 @@
 #include "solid3d/effects.h"
 
+#include <cassert>
+
 #include "solid3d/elements.h"
 
 namespace bight::solid3d {
@@ -21,7 +23,8 @@ SolidEffects make_effects(std::span<const Mesh> strands, const SolidParameters& 
                           int internal_begin, int first_layer) {
   const HexMesh mesh = hexahedra(strands);
   const HexElement& element = hex_element(p.element);
-  const int first_cell = first_layer * static_cast<int>(strands[0].section.quads.size());
+  assert(mesh.degree == element.degree);
+  const int first_cell = strands[0].cells_before(first_layer);
   Contact::Options contact;
   contact.sample_spacing = p.sample_spacing;
   contact.largest_move = p.largest_move;

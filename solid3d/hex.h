@@ -1,83 +1,87 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "mechanics/types.h"
 
 namespace bight::solid3d {
 
-/// Any mesh of 8-node hexahedra: reference positions [D], and nodes of each cell in VTK order.
+/// Nodes of a cell in VTK order: 8 of a hexahedron, 27 of a triquadratic one, whose first eight are
+/// its corners.
+using HexCell = std::vector<int>;
+
+/// Any mesh of hexahedra of one degree (1: 8 nodes, 2: 27): reference positions [D] and cells.
 struct HexMesh {
   std::vector<Vector3> nodes;
-  std::vector<std::array<int, 8>> cells;
+  std::vector<HexCell> cells;
+  int degree = 1;
 };
 
-/// Where the strain of a cell is taken: at 2 x 2 x 2 Gauss points, or once, with the mean of the
-/// gradients over the cell (exact for a distorted cell, unlike that at its middle).
-enum class Quadrature { gauss, mean };
+template <int degree>
+constexpr int hex_nodes = (degree + 1) * (degree + 1) * (degree + 1);
 
-/// Trilinear 8-node hexahedron: what depends on its reference shape alone.
-struct HexReference {
-  using Gradients = Eigen::Matrix<double, 3, 8>;  ///< dN_a/dX, a column per node [1/D]
+/// Node positions as columns; also forces, and the gradients dN_a/dX.
+template <int degree>
+using HexNodes = Eigen::Matrix<double, 3, hex_nodes<degree>>;
 
-  int points = 8;
-  std::array<Gradients, 8> gradient;
-  std::array<double, 8> weight;  ///< reference volume of the point [D^3]
-  double volume = 0;             ///< V [D^3]
-};
-
-/// Node positions as columns.
-using HexNodes = Eigen::Matrix<double, 3, 8>;
-
-/// Node positions in the cube [-1, 1]^3.
-inline const HexNodes& parent_corners() {
-  static const HexNodes corners = (HexNodes() << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1,
-                                   1, 1, -1, -1, -1, -1, 1, 1, 1, 1)
-                                      .finished();
-  return corners;
+/// Node positions in the cube [-1, 1]^3, in VTK order.
+inline const HexNodes<2>& parent_nodes() {
+  // clang-format off
+  static const HexNodes<2> nodes = (HexNodes<2>() <<
+    -1, 1, 1,-1,-1, 1, 1,-1,  0, 1, 0,-1, 0, 1, 0,-1,-1, 1, 1,-1, -1, 1, 0, 0, 0, 0, 0,
+    -1,-1, 1, 1,-1,-1, 1, 1, -1, 0, 1, 0,-1, 0, 1, 0,-1,-1, 1, 1,  0, 0,-1, 1, 0, 0, 0,
+    -1,-1,-1,-1, 1, 1, 1, 1, -1,-1,-1,-1, 1, 1, 1, 1, 0, 0, 0, 0,  0, 0, 0, 0,-1, 1, 0).finished();
+  // clang-format on
+  return nodes;
 }
 
-/// dN_a/dxi at a point of the cube [-1, 1]^3: N_a = (1 + xi xi_a)(1 + eta eta_a)(1 + zeta
-/// zeta_a)/8.
-inline HexReference::Gradients parent_gradients(const Vector3& xi) {
-  const HexNodes& corner = parent_corners();
-  HexReference::Gradients g;
-  for (int a = 0; a < 8; ++a) {
-    const Vector3 f = Vector3::Ones() + xi.cwiseProduct(corner.col(a));
-    g.col(a) = Vector3(corner(0, a) * f.y() * f.z(), corner(1, a) * f.x() * f.z(),
-                       corner(2, a) * f.x() * f.y()) /
-               8;
+/// The node's place in the cell's grid, 0 ... degree along every direction.
+inline std::array<int, 3> grid_place(int degree, int node) {
+  std::array<int, 3> place;
+  for (int c = 0; c < 3; ++c)
+    place[c] = degree * (static_cast<int>(parent_nodes()(c, node)) + 1) / 2;
+  return place;
+}
+
+/// Lagrange polynomial on [-1, 1] that is 1 at the node and 0 at the others, and its slope.
+struct Lagrange {
+  double value, slope;
+};
+inline Lagrange lagrange(int degree, double node, double t) {
+  if (degree == 1) return {0.5 * (1 + node * t), 0.5 * node};
+  if (node == 0) return {1 - t * t, -2 * t};
+  return {0.5 * t * (t + node), t + 0.5 * node};
+}
+
+/// dN_a/dxi at a point of the cube [-1, 1]^3, N_a the product of three Lagrange polynomials.
+template <int degree>
+HexNodes<degree> parent_gradients(const Vector3& xi) {
+  HexNodes<degree> g;
+  for (int a = 0; a < hex_nodes<degree>; ++a) {
+    std::array<Lagrange, 3> f;
+    for (int c = 0; c < 3; ++c) f[c] = lagrange(degree, parent_nodes()(c, a), xi[c]);
+    g.col(a) = Vector3(f[0].slope * f[1].value * f[2].value, f[0].value * f[1].slope * f[2].value,
+                       f[0].value * f[1].value * f[2].slope);
   }
   return g;
 }
 
-inline HexReference hex_reference(const HexNodes& X, Quadrature quadrature = Quadrature::gauss) {
-  const double gauss = 1 / std::sqrt(3.0);
-  HexReference reference;
-  for (int q = 0; q < reference.points; ++q) {
-    const Vector3 xi(q & 1 ? gauss : -gauss, q & 2 ? gauss : -gauss, q & 4 ? gauss : -gauss);
-    const auto parent = parent_gradients(xi);
-    const Matrix3 dX = X * parent.transpose();
-    reference.gradient[q] = dX.inverse().transpose() * parent;
-    reference.weight[q] = dX.determinant();
-    reference.volume += reference.weight[q];
-  }
-  if (quadrature == Quadrature::gauss) return reference;
-  HexReference mean;
-  mean.points = 1;
-  mean.weight[0] = mean.volume = reference.volume;
-  mean.gradient[0].setZero();
-  for (int q = 0; q < reference.points; ++q)
-    mean.gradient[0] += reference.weight[q] / reference.volume * reference.gradient[q];
-  return mean;
+/// N_a there.
+template <int degree>
+Eigen::Matrix<double, hex_nodes<degree>, 1> parent_values(const Vector3& xi) {
+  Eigen::Matrix<double, hex_nodes<degree>, 1> N;
+  N.setOnes();
+  for (int a = 0; a < hex_nodes<degree>; ++a)
+    for (int c = 0; c < 3; ++c) N[a] *= lagrange(degree, parent_nodes()(c, a), xi[c]).value;
+  return N;
 }
 
 /// Positions of a cell's nodes.
-inline HexNodes cell_nodes(const HexMesh& mesh, const std::array<int, 8>& cell) {
-  HexNodes X;
-  for (int a = 0; a < 8; ++a) X.col(a) = mesh.nodes[cell[a]];
+template <int degree>
+HexNodes<degree> cell_nodes(const HexMesh& mesh, const HexCell& cell) {
+  HexNodes<degree> X;
+  for (int a = 0; a < hex_nodes<degree>; ++a) X.col(a) = mesh.nodes[cell[a]];
   return X;
 }
 

@@ -80,18 +80,23 @@ SectionLoads section_loads(const Mesh& mesh, const SolidEffects& effects, const 
        {static_cast<Effect*>(effects.strain), static_cast<Effect*>(effects.hourglass)}) {
     if (!effect) continue;
     for (int i = 0; i < effect->stencils(); ++i) {
-      Eigen::Matrix<double, 24, 1> gradient = Eigen::Matrix<double, 24, 1>::Zero();
+      const auto at = effect->coordinates(i);
+      const int nodes = static_cast<int>(at.size()) / 3;
+      Vector gradient = Vector::Zero(3 * nodes);
       ElementSlot slot{0, gradient.data(), nullptr};
       effect->element(x, i, Order::gradient, slot);
-      const auto at = effect->coordinates(i);
-      int last = 0;
-      for (int a = 0; a < 8; ++a) last = std::max(last, at[3 * a] / 3 / mesh.points_per_layer());
-      for (int a = 0; a < 8; ++a) {
-        const int layer = at[3 * a] / 3 / mesh.points_per_layer();
-        const Vector3 f =
-            (layer == last ? 1 : -1) * gradient.segment<3>(3 * a) / loads[layer].sides;
-        loads[layer].force += f;
-        loads[layer].moment += (x.segment<3>(at[3 * a]) - centre[layer]).cross(f);
+      const auto layer_of = [&](int a) { return at[3 * a] / 3 / mesh.points_per_layer(); };
+      const int first = layer_of(0), last = first + mesh.degree();
+      for (int a = 0; a < nodes; ++a) {
+        const int layer = layer_of(a);
+        if (layer != first && layer != last) continue;
+        const Vector3 f = (layer == last ? 1 : -1) * gradient.segment<3>(3 * a);
+        const auto add = [&](int k, double part) {
+          loads[k].force += part * f;
+          loads[k].moment += part * (x.segment<3>(at[3 * a]) - centre[k]).cross(f);
+        };
+        add(layer, 1.0 / loads[layer].sides);
+        if (mesh.degree() == 2) add(first + 1, 0.5);
       }
     }
   }

@@ -19,7 +19,8 @@ std::vector<double> flattening(const Mesh& mesh, const Vector& x);
 
 /// Resultants at all sections, about their centres: nodal forces of the cells before a section and
 /// minus those of the cells behind it, their mean (contact acts on the section's own nodes). At the
-/// ends, of the cells that there are. For one strand whose effects are those of the whole of it.
+/// ends, of the cells that there are; in the middle of a quadratic cell, the mean of what its two
+/// ends carry. For one strand whose effects are those of the whole of it.
 SectionLoads section_loads(const Mesh& mesh, const SolidEffects& effects, const Vector& x);
 
 /// Everything the writers show of a state, but tension and energies.

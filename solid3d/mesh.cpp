@@ -16,6 +16,8 @@ HexMesh hexahedra(std::span<const Mesh> strands) {
   HexMesh all;
   for (const Mesh& mesh : strands) {
     assert(mesh.first_node == static_cast<int>(all.nodes.size()));
+    assert(all.cells.empty() || mesh.degree() == all.degree);
+    all.degree = mesh.degree();
     for (int n = 0; n < mesh.nodes(); ++n) all.nodes.push_back(mesh.reference(mesh.first_node + n));
     all.cells.insert(all.cells.end(), mesh.cells.begin(), mesh.cells.end());
   }
@@ -23,12 +25,22 @@ HexMesh hexahedra(std::span<const Mesh> strands) {
 }
 
 Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node) {
-  Mesh mesh{section, layers, {}, first_node};
-  for (int k = 0; k + 1 < mesh.layers(); ++k)
-    for (const auto& q : section.quads)
-      mesh.cells.push_back({mesh.node(k, q[0]), mesh.node(k, q[1]), mesh.node(k, q[2]),
-                            mesh.node(k, q[3]), mesh.node(k + 1, q[0]), mesh.node(k + 1, q[1]),
-                            mesh.node(k + 1, q[2]), mesh.node(k + 1, q[3])});
+  const int degree = section.degree, row = degree + 1;
+  Mesh mesh{section, {layers.front()}, {}, first_node};
+  for (size_t k = 0; k + 1 < layers.size(); ++k) {
+    if (degree == 2) mesh.s.push_back(0.5 * (layers[k] + layers[k + 1]));
+    mesh.s.push_back(layers[k + 1]);
+  }
+  for (int k = 0; k + degree < mesh.layers(); k += degree)
+    for (int c = 0; c < section.cells(); ++c) {
+      const std::vector<int> points = section.cell(c);
+      HexCell cell;
+      for (int a = 0; a < row * row * row; ++a) {
+        const auto [i, j, layer] = grid_place(degree, a);
+        cell.push_back(mesh.node(k + layer, points[static_cast<size_t>(j * row + i)]));
+      }
+      mesh.cells.push_back(std::move(cell));
+    }
   return mesh;
 }
 

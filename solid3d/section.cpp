@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "solid3d/mesh.h"
 
@@ -16,11 +18,12 @@ struct Division {
 };
 
 /// The division with the number of cells nearest to what is asked, on a logarithmic scale. At most
-/// core/2 rings: more of them make flat cells at the rim.
-Division divide(int cells) {
-  Division best{2, 1};
+/// core/2 rings: more of them make flat cells at the rim. Straight sides need a core of 2.
+Division divide(int cells, int degree) {
+  const int smallest = degree == 1 ? 2 : 1;
+  Division best{smallest, 1};
   double least = std::numeric_limits<double>::max();
-  for (int core = 2; core <= 40; ++core)
+  for (int core = smallest; core <= 40; ++core)
     for (int rings = 1; rings <= std::max(1, core / 2); ++rings) {
       const Division division{core, rings};
       const double off = std::abs(std::log(static_cast<double>(division.cells()) / cells));
@@ -38,31 +41,104 @@ Vector2 bulge(const Vector2& q) {
   return 0.5 * q * std::sqrt(std::numbers::pi) / 2 + 0.5 * on_disc;
 }
 
+/// A side of the rim, r(t) = m + t d + t^2 c for t in [-1, 1]: a parabola through three points, or
+/// a straight line.
+struct Side {
+  Vector2 m, d, c;
+};
+
+std::vector<Side> sides(const Section& section) {
+  std::vector<Side> all;
+  const auto at = [&](size_t i) { return section.points[section.rim[i % section.rim.size()]]; };
+  const size_t step = static_cast<size_t>(section.degree);
+  for (size_t i = 0; i < section.rim.size(); i += step) {
+    const Vector2 a = at(i), b = at(i + step), chord = 0.5 * (a + b);
+    const Vector2 m = step == 1 ? chord : at(i + 1);
+    all.push_back({m, 0.5 * (b - a), chord - m});
+  }
+  return all;
+}
+
+/// The sum over the rim of int f(r) (x dy - y dx); f of up to fourth degree in t.
+template <class F>
+double around(const Section& section, F&& f) {
+  // Gauss and Legendre, 4 points.
+  const double inner = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2)),
+               outer = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
+  const double of_inner = (18 + std::sqrt(30.0)) / 36, of_outer = (18 - std::sqrt(30.0)) / 36;
+  double sum = 0;
+  for (const Side& side : sides(section))
+    for (const auto& [t, weight] : {std::pair(-outer, of_outer), std::pair(-inner, of_inner),
+                                    std::pair(inner, of_inner), std::pair(outer, of_outer)}) {
+      const Vector2 r = side.m + t * side.d + t * t * side.c, dr = side.d + 2 * t * side.c;
+      sum += weight * f(r) * (r.x() * dr.y() - r.y() * dr.x());
+    }
+  return sum;
+}
+
+/// Of degree 2: a point in the middle of every side, straight inside and on the circle of the rim,
+/// and in the middle of every cell.
+Section with_middles(const Section& coarse) {
+  Section fine = coarse;
+  fine.degree = 2;
+  fine.quads.clear();
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int a, int b) -> int& { return middles[std::minmax(a, b)]; };
+  const auto add = [&](const Vector2& p) {
+    fine.points.push_back(p);
+    return static_cast<int>(fine.points.size()) - 1;
+  };
+  fine.rim.clear();
+  for (size_t i = 0; i < coarse.rim.size(); ++i) {
+    const int a = coarse.rim[i], b = coarse.rim[(i + 1) % coarse.rim.size()];
+    const Vector2 chord = 0.5 * (coarse.points[a] + coarse.points[b]);
+    middle(a, b) = add(chord.normalized() * coarse.points[a].norm());
+    fine.rim.insert(fine.rim.end(), {a, middle(a, b)});
+  }
+  for (const auto& corner : coarse.quads) {
+    std::array<int, 4> side;
+    Vector2 centre = Vector2::Zero();  // Coons: half the middles of sides less a quarter of corners
+    for (int i = 0; i < 4; ++i) {
+      const int a = corner[i], b = corner[(i + 1) % 4];
+      if (!middles.contains(std::minmax(a, b)))
+        middle(a, b) = add(0.5 * (coarse.points[a] + coarse.points[b]));
+      side[i] = middle(a, b);
+      centre += 0.5 * fine.points[side[i]] - 0.25 * coarse.points[a];
+    }
+    const int m = add(centre);
+    if (centre.norm() < 1e-12) fine.centre = {m};
+    fine.quads.push_back({corner[0], side[0], m, side[3]});
+    fine.quads.push_back({side[0], corner[1], side[1], m});
+    fine.quads.push_back({m, side[1], corner[2], side[2]});
+    fine.quads.push_back({side[3], m, side[2], corner[3]});
+  }
+  return fine;
+}
+
 }  // namespace
 
 double Section::area() const {
-  double sum = 0;
-  for (size_t i = 0; i < rim.size(); ++i) {
-    const Vector2 &a = points[rim[i]], &b = points[rim[(i + 1) % rim.size()]];
-    sum += 0.5 * (a.x() * b.y() - b.x() * a.y());
-  }
-  return sum;
+  return 0.5 * around(*this, [](const Vector2&) { return 1.0; });
 }
 
-double Section::cell_width() const { return std::sqrt(area() / static_cast<double>(quads.size())); }
+double Section::cell_width() const { return std::sqrt(area() / cells()); }
 
-/// I = sum (x_i y_{i+1} - x_{i+1} y_i)(y_i^2 + y_i y_{i+1} + y_{i+1}^2) / 12 over the polygon.
+/// I = int y^2 dA = 1/4 the integral of y^2 (x dy - y dx) around it.
 double Section::second_moment() const {
-  double sum = 0;
-  for (size_t i = 0; i < rim.size(); ++i) {
-    const Vector2 &a = points[rim[i]], &b = points[rim[(i + 1) % rim.size()]];
-    sum += (a.x() * b.y() - b.x() * a.y()) * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
-  }
-  return sum;
+  return 0.25 * around(*this, [](const Vector2& r) { return r.y() * r.y(); });
 }
 
-Section make_section(int cells) {
-  const auto [m, rings] = divide(cells);
+std::vector<int> Section::cell(int number) const {
+  if (degree == 1) {
+    const auto& q = quads[number];
+    return {q[0], q[1], q[3], q[2]};
+  }
+  const auto* q = &quads[4 * number];
+  return {q[0][0], q[0][1], q[1][1], q[0][3], q[0][2], q[1][2], q[3][3], q[3][2], q[2][2]};
+}
+
+Section make_section(int cells, int degree) {
+  const auto [m, rings] = divide(cells, degree);
   // Cells of equal area: the core takes its share m^2 / (m^2 + 4 m r) of the disc.
   const double core_radius = 0.5 * std::sqrt(m / (m + 4.0 * rings));
   Section section;
@@ -104,6 +180,7 @@ Section make_section(int cells) {
     inner = outer;
   }
   section.rim = inner;
+  if (degree == 2) section = with_middles(section);
 
   // A disc meshed with nodes on its rim loses stiffness (2.3 % of B at 24 sides): restore I.
   const double scale = std::pow(std::numbers::pi / 64 / section.second_moment(), 0.25);

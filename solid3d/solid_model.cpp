@@ -30,7 +30,7 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
       internal_begin_(grip_.coordinates(mesh)),
       effects_(make_effects(mesh, parameters, internal_begin_,
                             symmetry_ ? symmetry_->first_layer() : 0)),
-      unknowns_(grip_.unknowns(mesh, internal_begin_ + 2 * static_cast<int>(mesh.cells.size()),
+      unknowns_(grip_.unknowns(mesh, internal_begin_ + effects_.strain->internals(),
                                symmetry_ ? &*symmetry_ : nullptr)),
       assembler_(unknowns_, effects_.list),
       system_{assembler_, cholesky_, Ordering::dissection, {}, 0, 0, {}},
@@ -43,7 +43,7 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
   }
   // Dilatation and pressure begin at zero: from the swept positions they would be K times the
   // small volume errors of the sweep.
-  Vector x = Vector::Zero(internal_begin_ + 2 * static_cast<int>(mesh.cells.size()));
+  Vector x = Vector::Zero(internal_begin_ + effects_.strain->internals());
   const Eigen::Isometry3d to_frame = from_frame_.inverse();
   for (int n = 0; n < mesh.nodes(); ++n) x.segment<3>(3 * n) = to_frame * start[n];
   grip_.move(mesh, start_ebar, x);

@@ -39,11 +39,10 @@ SolidProblem::Solver::Solver(std::vector<int> blocks, int positions, const std::
 
 SolidProblem::SolidProblem(const std::vector<Strand>& strands, const SolidParameters& parameters)
     : parameters_(parameters), scale_(parameters.expected_tension) {
-  int nodes = 0, cells = 0;
+  int nodes = 0;
   for (const Strand& strand : strands) {
     strands_.push_back(make_mesh(strand.section, strand.layers, nodes));
     nodes += strands_.back().nodes();
-    cells += static_cast<int>(strands_.back().cells.size());
   }
   positions_ = 3 * nodes;
   effects_ = make_effects(strands_, parameters_, positions_);
@@ -51,7 +50,7 @@ SolidProblem::SolidProblem(const std::vector<Strand>& strands, const SolidParame
   loads_ = loads.get();
   effects_.list.push_back(std::move(loads));
 
-  Vector x = Vector::Zero(positions_ + 2 * cells);
+  Vector x = Vector::Zero(positions_ + effects_.strain->internals());
   for (size_t i = 0; i < strands.size(); ++i)
     for (int n : this->nodes(static_cast<int>(i), [](const Vector3&) { return true; }))
       x.segment<3>(3 * n) = strands[i].place(strands_[i].reference(n));

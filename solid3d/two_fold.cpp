@@ -20,7 +20,8 @@ int point_at(const std::vector<Vector2>& points, const Vector2& p) {
 
 std::optional<TwoFold> TwoFold::find(const Mesh& mesh, const std::vector<Vector3>& start,
                                      double tolerance) {
-  if (mesh.layers() % 2 == 0) return std::nullopt;
+  // The middle layer lies between cells.
+  if ((mesh.layers() - 1) % (2 * mesh.degree()) != 0) return std::nullopt;
   const auto centre = [&](int layer) {
     Vector3 mean = Vector3::Zero();
     for (int p = 0; p < mesh.points_per_layer(); ++p)

@@ -35,14 +35,14 @@ Contact::Contact(std::span<const Mesh> strands, ContactLaw law, Options options)
     : surface_(strands), law_(law), options_(options) {}
 
 PatchWeights Contact::own_weights(const Sample& sample) const {
-  return surface_.weights(surface_.around(sample.patch) + sample.local.x(),
-                          surface_.along(sample.patch) + sample.local.y());
+  return surface_.face_weights(surface_.around(sample.patch) + sample.local.x(),
+                               surface_.along(sample.patch) + sample.local.y());
 }
 
 std::array<int, 54> Contact::stencil(const Sample& sample) const {
   const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
-  const auto own =
-      patch_coordinates(surface_, surface_.around(sample.patch), surface_.along(sample.patch));
+  const PatchWeights face = own_weights(sample);
+  const auto own = patch_coordinates(surface_, face.around, face.along);
   const auto other = patch_coordinates(surface_, facing.around, facing.along);
   std::array<int, 54> all;
   for (int a = 0; a < 9; ++a)
@@ -220,14 +220,16 @@ void Contact::element(const Vector& x, int stencil, Order order, ElementSlot& sl
 
 void Contact::couplings(const std::function<void(std::span<const int>)>& couple) const {
   // A facing point may wander to a neighbouring patch before the pattern is built again.
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::pair<int, int>> pairs;  // patches in the middle of own nodes and facing ones
   for (const Sample& sample : samples_) {
     if (!sample.faces || sample.gap > 0.5 * law_.onset + pattern_margin) continue;
     const PatchWeights facing = surface_.weights(sample.facing.x(), sample.facing.y());
+    const PatchWeights face = own_weights(sample);
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
         if (surface_.has_patch(facing.along + j))
-          pairs.emplace_back(sample.patch, surface_.patch(facing.around + i, facing.along + j));
+          pairs.emplace_back(surface_.patch(face.around, face.along),
+                             surface_.patch(facing.around + i, facing.along + j));
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

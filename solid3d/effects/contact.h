@@ -65,12 +65,12 @@ class Contact : public Effect {
   const std::vector<Sample>& samples() const { return samples_; }
 
   PatchWeights own_weights(const Sample& sample) const;
-  /// Coordinates of the 9 nodes around a sample and the 9 around its facing point.
+  /// Coordinates of the 9 nodes that carry a sample and the 9 around its facing point.
   std::array<int, 54> stencil(const Sample& sample) const;
 
  private:
   double skins(const Sample& sample, int facing_layer) const {
-    return surface_.skin(surface_.along(sample.patch)) + surface_.skin(facing_layer);
+    return surface_.face_skin(surface_.along(sample.patch)) + surface_.skin(facing_layer);
   }
   void find_samples(const Vector& x);
   void project(const Vector& x, Sample& sample) const;

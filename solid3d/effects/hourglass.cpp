@@ -6,16 +6,16 @@
 namespace bight::solid3d {
 
 Hourglass::Hourglass(const HexMesh& mesh, double shear_modulus, double factor, int first_cell) {
-  const HexNodes& corner = parent_corners();
+  const HexNodes<2>& corner = parent_nodes();
   Eigen::Matrix<double, 8, 4> h;
   for (int a = 0; a < 8; ++a) {
     const Vector3 xi = corner.col(a);
     h.row(a) << xi.y() * xi.z(), xi.x() * xi.z(), xi.x() * xi.y(), xi.prod();
   }
   for (size_t c = static_cast<size_t>(first_cell); c < mesh.cells.size(); ++c) {
-    const HexNodes X = cell_nodes(mesh, mesh.cells[c]);
-    const HexReference mean = hex_reference(X, Quadrature::mean);
-    const Matrix3 sides = X * parent_gradients(Vector3::Zero()).transpose();
+    const HexNodes<1> X = cell_nodes<1>(mesh, mesh.cells[c]);
+    const HexReference<1> mean = hex_reference<1>(X, Quadrature::mean);
+    const Matrix3 sides = X * parent_gradients<1>(Vector3::Zero()).transpose();
     Cell cell;
     for (int a = 0; a < 8; ++a)
       for (int i = 0; i < 3; ++i) cell.coordinates[3 * a + i] = 3 * mesh.cells[c][a] + i;
@@ -60,7 +60,7 @@ void Hourglass::element(const Vector& x, int stencil, Order order, ElementSlot& 
   using Matrix24 = Eigen::Matrix<double, 24, 24>;
   using Vector9 = Eigen::Matrix<double, 9, 1>;
   const Cell& cell = cells_[static_cast<size_t>(stencil)];
-  HexNodes nodes;
+  HexNodes<1> nodes;
   for (int a = 0; a < 8; ++a) nodes.col(a) = x.segment<3>(cell.coordinates[3 * a]);
   const Matrix3 u = nodes * cell.first, v = nodes * cell.second;
   const Eigen::Matrix<double, 3, 4> q = nodes * cell.gamma;
@@ -76,12 +76,12 @@ void Hourglass::element(const Vector& x, int stencil, Order order, ElementSlot& 
   Eigen::Matrix<double, 24, 9> dY;
   for (int m = 0; m < 3; ++m)
     for (int i = 0; i < 3; ++i)
-      HexNodes::Map(dY.col(i + 3 * m).data()) =
+      HexNodes<1>::Map(dY.col(i + 3 * m).data()) =
           normal.col(i) * cell.gamma.col(m).transpose() +
           v.col(i).cross(q.col(m)) * cell.first.col(i).transpose() +
           q.col(m).cross(u.col(i)) * cell.second.col(i).transpose();
   const Eigen::Matrix<double, 8, 4> stiff = cell.gamma * cell.isotropic.asDiagonal();
-  HexNodes::Map(slot.gradient) = q * stiff.transpose() + (dY * force).reshaped(3, 8);
+  HexNodes<1>::Map(slot.gradient) = q * stiff.transpose() + (dY * force).reshaped(3, 8);
   if (order < Order::hessian) return;
 
   Matrix24 H = dY * cell.stiffness * dY.transpose();

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mechanics/effect.h"
-#include "solid3d/hex.h"
+#include "solid3d/hex_reference.h"
 
 namespace bight::solid3d {
 

@@ -284,6 +284,21 @@ TEST_CASE("natural curvature and twist reach the rod, and not the solid") {
       std::string::npos);
 }
 
+TEST_CASE("the quadratic element has its own numbers of cells") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.toml", small_scene);
+  const std::string quadratic = "solid3d.element=quadratic";
+  CHECK(read_scene(file, {}).section_elements == 32);
+  const Scene scene = read_scene(file, {quadratic, "solid3d.confirm_at=[25]"});
+  CHECK(scene.section_elements == 12);
+  CHECK(scene.confirm_elements == 21);
+  CHECK(sweep_options(scene, 5).degree == 2);
+  CHECK_THAT(expectations(read_scene(file, {quadratic, "solid3d.section_elements=5"})),
+             Catch::Contains("solid  5 cells in a section"));
+  CHECK_THAT(complaint(small_scene, {"solid3d.section_elements=5"}),
+             Catch::Contains("fewer than 12") && Catch::Contains("quadratic"));
+}
+
 TEST_CASE("what is to be confirmed is said before it runs") {
   const TemporaryFolder folder;
   const Scene scene = read_scene(folder.write("scene.toml", small_scene),

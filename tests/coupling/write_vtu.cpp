@@ -7,6 +7,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "temporary_folder.h"
@@ -56,6 +57,31 @@ TEST_CASE("the solid reads back deformed, in metres, with its fields") {
   reader->Modified();
   reader->Update();
   CHECK(reader->GetOutput()->GetCellData()->GetArray("von_mises") == nullptr);  // not filled in
+}
+
+TEST_CASE("a quadratic cell is shown as eight hexahedra with its fields") {
+  const TemporaryFolder folder;
+  const solid3d::Mesh mesh = solid3d::make_mesh(solid3d::make_section(5, 2), {0, 0.5, 1});
+  solid3d::SolidState state;
+  for (int i = 0; i < mesh.nodes(); ++i) state.nodes.push_back(mesh.reference(i));
+  for (size_t c = 0; c < mesh.cells.size(); ++c) state.pressure.push_back(static_cast<double>(c));
+  write_solid_vtu(folder / "state.vtu", mesh, state, scales);
+
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "state.vtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  REQUIRE(grid->GetNumberOfCells() == 8 * 10);
+  std::vector<int> shown(mesh.cells.size(), 0);
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    const double pressure = grid->GetCellData()->GetArray("pressure")->GetTuple1(i);
+    const auto c = static_cast<size_t>(std::lround(pressure / scales.stress()));
+    ++shown[c];
+    // Of its eight nodes all belong to that cell.
+    for (vtkIdType a = 0; a < 8; ++a)
+      CHECK(std::ranges::count(mesh.cells[c], grid->GetCell(i)->GetPointId(a)) == 1);
+  }
+  for (const int times : shown) CHECK(times == 8);
 }
 
 TEST_CASE("the rod reads back as one line with orthonormal frames") {

@@ -26,6 +26,35 @@ TEST_CASE("the skin of a straight rod is a cylinder of diameter D") {
   }
 }
 
+TEST_CASE("faces of quadratic cells are round, and load their nodes as Simpson weighs them") {
+  for (const auto& [cells, ripple] : std::vector<std::pair<int, double>>{{5, 3e-3}, {12, 2e-4}}) {
+    const Mesh mesh = test::straight_mesh(cells, 3.0, 1.0, 2);
+    const ContactSurface surface(mesh);
+    const Vector x = test::reference_state(mesh, 0);
+    std::vector<double> load(static_cast<size_t>(surface.patches()), 0.0);
+    constexpr int per_patch = 20;
+    for (int k = 3; k < 11; ++k)
+      for (int i = 0; i < per_patch * surface.sides(); ++i) {
+        const double u = (i + 0.5) / per_patch;
+        for (int j = 0; j < per_patch; ++j) {
+          const PatchWeights w = surface.face_weights(u, k - 0.5 + (j + 0.5) / per_patch);
+          const SurfacePoint p = surface.evaluate(x, w);
+          CHECK(p.y.head<2>().norm() + surface.face_skin() == Approx(0.5).margin(ripple));
+          for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b)
+              load[static_cast<size_t>(surface.patch(w.around + a - 1, w.along + b - 1))] +=
+                  w.u[a] * w.v[b] / (per_patch * per_patch);
+        }
+      }
+    for (const int around : {0, 1, 2, 3})
+      for (const int along : {6, 7}) {
+        const double share = (around % 2 ? 4.0 / 3 : 2.0 / 3) * (along % 2 ? 4.0 / 3 : 2.0 / 3);
+        CHECK(load[static_cast<size_t>(surface.patch(around, along))] ==
+              Approx(share).epsilon(2e-3));
+      }
+  }
+}
+
 TEST_CASE("the patches of unequal layers share the area of the cylinder") {
   const Mesh mesh = make_mesh(make_section(12), {0, 0.1, 0.4, 0.5, 0.9});
   const ContactSurface surface(mesh);

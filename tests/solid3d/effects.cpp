@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "solid3d/elements.h"
 #include "tests/derivatives.h"
 #include "tests/solid3d/shapes.h"
 
@@ -18,18 +19,21 @@ constexpr double touching_pitch = 0.99, radius = 2.0;
 
 /// A rod of one turn and a bit, so that its ends lie side by side, and its effects.
 struct Wound {
-  Mesh mesh = test::straight_mesh(12, 2.12 * M_PI * radius, 1.0);
+  Mesh mesh;
   int positions = 3 * mesh.nodes();
-  int internal = 2 * static_cast<int>(mesh.cells.size());
   SolidEffects effects;
 
-  Wound() {
+  explicit Wound(const HexElement& element = hex_elements()[0])
+      : mesh(test::straight_mesh(element.degree == 1 ? 12 : 5, 2.12 * M_PI * radius, element.degree,
+                                 element.degree)) {
     SolidParameters parameters;
+    parameters.element = element.name;
     parameters.material.bulk_to_shear = 20;
     parameters.sample_spacing = 0.15;
     effects = make_effects(mesh, parameters, positions);
   }
-  Vector state(double pitch) const { return helix_state(mesh, radius, pitch, internal); }
+  int internal() const { return effects.strain->internals(); }
+  Vector state(double pitch) const { return helix_state(mesh, radius, pitch, internal()); }
 };
 
 Vector3 sum_of_forces(const Vector& gradient, int positions) {
@@ -48,8 +52,8 @@ Vector3 sum_of_torques(const Vector& x, const Vector& gradient, int positions) {
 }  // namespace
 
 TEST_CASE("derivatives of every solid effect converge with the square of the step") {
-  Wound rod;
-  const Vector rest = test::reference_state(rod.mesh, rod.internal);
+  Wound rod(GENERATE(from_range(hex_elements())));
+  const Vector rest = test::reference_state(rod.mesh, rod.internal());
   const Vector generic = shaken(rod.state(touching_pitch), rod.positions, 1e-3);
   // Small steps: the contact spline is C1, so its Hessian jumps where a projection changes patch.
   const test::OrderOfConvergence order{1e-4, 4, 3.0};
@@ -158,7 +162,7 @@ TEST_CASE("a step may close the gap and overlap a little, no more") {
 }
 
 TEST_CASE("no effect feels a rigid motion, and its forces balance") {
-  Wound rod;
+  Wound rod(GENERATE(from_range(hex_elements())));
   Vector x = shaken(rod.state(touching_pitch), rod.positions, 1e-3);
   const Matrix3 R = Eigen::AngleAxisd(0.7, Vector3(1, 2, -1).normalized()).toRotationMatrix();
   Vector moved = x;
@@ -219,13 +223,17 @@ TEST_CASE("Young's modulus is 1 at any ratio of bulk and shear modulus") {
 }
 
 TEST_CASE("dilatation and pressure: recovered by the linear part of settling, work as stated") {
-  const Mesh mesh = test::straight_mesh(12, 1.0, 1.0);
+  const HexElement element = GENERATE(from_range(hex_elements()));
+  const Mesh mesh = test::straight_mesh(12, 1.0, 1.0, element.degree);
   const int positions = 3 * mesh.nodes(), cells = static_cast<int>(mesh.cells.size());
   SolidParameters parameters;
+  parameters.element = element.name;
   parameters.material.bulk_to_shear = 20;
   SolidEffects effects = make_effects(mesh, parameters, positions);
   Strain& strain = *effects.strain;
-  const Vector away = shaken(test::reference_state(mesh, 2 * cells), positions, 1e-2);
+  const int per_cell = internals_per_cell(element.degree);
+  const Vector away =
+      shaken(test::reference_state(mesh, strain.internals()), positions, 1e-2 / element.degree);
   Vector x = away;
   strain.settle(x);
 
@@ -253,16 +261,13 @@ TEST_CASE("dilatation and pressure: recovered by the linear part of settling, wo
     return sum;
   };
   const double mu = MaterialParameters{.bulk_to_shear = 20}.shear_modulus(), t = 0.01;
-  double volume = 0;
   Vector off = x, pressed = x;
   for (int cell = 0; cell < cells; ++cell) {
-    off[positions + 2 * cell] += t;
-    pressed[positions + 2 * cell] += t;
-    pressed[positions + 2 * cell + 1] += 1;
-    HexNodes X;
-    for (int a = 0; a < 8; ++a) X.col(a) = mesh.reference(mesh.cells[cell][a]);
-    volume += hex_reference(X).volume;
+    off[positions + per_cell * cell] += t;
+    pressed[positions + per_cell * cell] += t;
+    pressed[positions + per_cell * cell + per_cell / 2] += 1;
   }
+  const double volume = mesh.section.area() * mesh.s.back();
   CHECK(energy(pressed) - energy(off) == Approx(-volume * t));
   CHECK(energy(off) - energy(x) == Approx(0.5 * volume * t * t * (20 * mu + mu)));
 }

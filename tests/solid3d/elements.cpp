@@ -22,7 +22,8 @@ struct Patch {
   test::HexProblem problem;
   EffectList effects;
   explicit Patch(const HexElement& element)
-      : problem(test::distorted_patch(), material, element), effects(problem.solid_effects()) {}
+      : problem(test::distorted_patch(element.degree), material, element),
+        effects(problem.solid_effects()) {}
 
   /// Energy and gradient of all effects together.
   test::Evaluation all(const Vector& x) const {
@@ -111,19 +112,20 @@ TEST_CASE("every element strains a distorted patch of cells alike") {
 TEST_CASE("a cell of every element resists all but rigid motion") {
   for (const HexElement& element : hex_elements()) {
     CAPTURE(element.name);
-    const HexMesh cell = test::brick({1, 1, 1}, [](const Vector3& u) {
+    const HexMesh cell = test::brick(element.degree, {1, 1, 1}, [](const Vector3& u) {
       return Vector3(u.x() + 0.2 * u.y() * u.z(), 0.7 * u.y() + 0.1 * u.x(), 1.5 * u.z());
     });
     const test::HexProblem problem(cell, material, element);
-    Eigen::Matrix<double, 24, 24> H = Eigen::Matrix<double, 24, 24>::Zero();
+    const int positions = problem.positions();
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(positions, positions);
     for (const auto& effect : problem.solid_effects()) {
-      Eigen::Matrix<double, 24, 1> gradient = Eigen::Matrix<double, 24, 1>::Zero();
-      Eigen::Matrix<double, 24, 24> hessian = Eigen::Matrix<double, 24, 24>::Zero();
+      Vector gradient = Vector::Zero(positions);
+      Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(positions, positions);
       ElementSlot slot{0, gradient.data(), hessian.data()};
       effect->element(problem.x, 0, Order::hessian, slot);
       H += hessian;
     }
-    const auto stiffness = Eigen::SelfAdjointEigenSolver<decltype(H)>(H).eigenvalues();
+    const Vector stiffness = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(H).eigenvalues();
     CHECK(stiffness.head<6>().cwiseAbs().maxCoeff() < 1e-14);
     CHECK(stiffness[6] > 0.01 / 3);
   }
@@ -132,8 +134,9 @@ TEST_CASE("a cell of every element resists all but rigid motion") {
 TEST_CASE("an inverted corner is seen whatever the points of an element") {
   for (const HexElement& element : hex_elements()) {
     CAPTURE(element.name);
-    test::HexProblem problem(test::brick({1, 1, 1}, [](const Vector3& u) { return u; }), material,
-                             element);
+    test::HexProblem problem(
+        test::brick(element.degree, {1, 1, 1}, [](const Vector3& u) { return u; }), material,
+        element);
     CHECK(problem.strain().stress(problem.x, 0).least_jacobian == Approx(1));
     problem.x.segment<3>(0) = Vector3(0.9, 0.9, 0.9);
     CHECK(problem.strain().stress(problem.x, 0).least_jacobian < 0);

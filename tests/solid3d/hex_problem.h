@@ -19,7 +19,7 @@ class HexProblem {
         material_(std::move(material)),
         element_(element),
         positions_(3 * static_cast<int>(mesh_.nodes.size())),
-        held_(static_cast<size_t>(positions_) + 2 * mesh_.cells.size(), false),
+        held_(static_cast<size_t>(positions_ + strain().internals()), false),
         force(Vector::Zero(positions_)),
         x(Vector::Zero(static_cast<int>(held_.size()))) {
     for (size_t n = 0; n < mesh_.nodes.size(); ++n)
@@ -40,21 +40,33 @@ class HexProblem {
       if (there(mesh_.nodes[n])) act(static_cast<int>(n));
   }
 
-  /// A dead traction on faces (each a cell's four nodes) whose reference nodes are all there.
+  /// A dead traction on faces of cells whose reference corners are all there.
   void load(const std::function<bool(const Vector3&)>& there, const Vector3& traction) {
-    static constexpr int faces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    const int degree = mesh_.degree;
     for (const auto& cell : mesh_.cells)
-      for (const auto& face : faces) {
-        Vector3 corner[4];
-        bool all = true;
-        for (int a = 0; a < 4; ++a)
-          corner[a] = mesh_.nodes[cell[face[a]]], all = all && there(corner[a]);
-        if (!all) continue;
-        // Of a parallelogram, which every loaded face here is.
-        const double area = (corner[1] - corner[0]).cross(corner[3] - corner[0]).norm();
-        for (const int a : face) force.segment<3>(3 * cell[a]) += area / 4 * traction;
-      }
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int side : {-1, 1}) {
+          std::vector<int> corner;
+          bool all = true;
+          for (int a = 0; a < 8; ++a)
+            if (solid3d::parent_nodes()(axis, a) == side) {
+              corner.push_back(cell[a]);
+              all = all && there(mesh_.nodes[cell[a]]);
+            }
+          if (!all) continue;
+          // Of a parallelogram, which every loaded face here is; Simpson's weights for parabolas.
+          const Vector3& origin = mesh_.nodes[corner[0]];
+          const double area =
+              (mesh_.nodes[corner[1]] - origin).cross(mesh_.nodes[corner[2]] - origin).norm();
+          for (size_t a = 0; a < cell.size(); ++a) {
+            const Vector3 at = solid3d::parent_nodes().col(static_cast<int>(a));
+            if (at[axis] != side) continue;
+            double part = 1;
+            for (int c = 0; c < 3; ++c)
+              if (c != axis) part *= degree == 1 ? 1.0 / 2 : at[c] == 0 ? 4.0 / 6 : 1.0 / 6;
+            force.segment<3>(3 * cell[a]) += part * area * traction;
+          }
+        }
   }
 
   /// To equilibrium from x, with the loads times `part`. Throws where there is none.
@@ -124,21 +136,27 @@ class HexProblem {
 };
 
 /// The unit cube cut into n_x n_y n_z cells, each node moved to map(X).
-inline solid3d::HexMesh brick(std::array<int, 3> n,
+inline solid3d::HexMesh brick(int degree, std::array<int, 3> n,
                               const std::function<Vector3(const Vector3&)>& map) {
   solid3d::HexMesh mesh;
+  mesh.degree = degree;
+  for (int& count : n) count *= degree;
   for (int k = 0; k <= n[2]; ++k)
     for (int j = 0; j <= n[1]; ++j)
       for (int i = 0; i <= n[0]; ++i)
         mesh.nodes.push_back(map({static_cast<double>(i) / n[0], static_cast<double>(j) / n[1],
                                   static_cast<double>(k) / n[2]}));
-  const auto node = [&](int i, int j, int k) { return (k * (n[1] + 1) + j) * (n[0] + 1) + i; };
-  for (int k = 0; k < n[2]; ++k)
-    for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i)
-        mesh.cells.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-                              node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
-                              node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+  const int nodes = degree == 1 ? 8 : 27;
+  for (int k = 0; k < n[2]; k += degree)
+    for (int j = 0; j < n[1]; j += degree)
+      for (int i = 0; i < n[0]; i += degree) {
+        solid3d::HexCell cell;
+        for (int a = 0; a < nodes; ++a) {
+          const auto at = solid3d::grid_place(degree, a);
+          cell.push_back(((k + at[2]) * (n[1] + 1) + j + at[1]) * (n[0] + 1) + i + at[0]);
+        }
+        mesh.cells.push_back(cell);
+      }
   return mesh;
 }
 

@@ -1,7 +1,10 @@
 #include "solid3d/mesh.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
+
+#include "solid3d/hex_reference.h"
 
 using namespace bight;
 using namespace bight::solid3d;
@@ -29,6 +32,57 @@ TEST_CASE("a section has about the cells that were asked for and the second mome
     }
     CHECK(sum == Approx(section.area()).epsilon(1e-12));
   }
+}
+
+TEST_CASE("a quadratic section has round sides and the grid of one cut into four") {
+  for (const int asked : {5, 12, 21, 32}) {
+    CAPTURE(asked);
+    const Section section = make_section(asked, 2);
+    REQUIRE(section.cells() == asked);
+    CHECK(section.quads.size() == static_cast<size_t>(4 * asked));
+    CHECK(section.second_moment() == Approx(std::numbers::pi / 64).epsilon(1e-12));
+    CHECK(section.area() == Approx(std::numbers::pi / 4).epsilon(1e-3));
+    REQUIRE(section.centre.size() == 1);
+    CHECK(section.points[section.centre[0]].norm() < 1e-15);
+    const double radius = section.points[section.rim[0]].norm();
+    const size_t sides = section.rim.size();
+    for (size_t i = 0; i < sides; ++i) {
+      const Vector2 &a = section.points[section.rim[i]],
+                    &b = section.points[section.rim[(i + 1) % sides]];
+      CHECK(a.norm() == Approx(radius));
+      CHECK((b - a).norm() == Approx(2 * radius * std::sin(std::numbers::pi / sides)));
+    }
+    for (int c = 0; c < section.cells(); ++c) {
+      const std::vector<int> grid = section.cell(c);
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        const int first = quarter % 2 + 3 * (quarter / 2);
+        std::array<int, 4> corners = {grid[first], grid[first + 1], grid[first + 4],
+                                      grid[first + 3]};
+        CHECK(std::is_permutation(
+            corners.begin(), corners.end(),
+            section.quads[4 * c + (quarter < 2 ? quarter : 5 - quarter)].begin()));
+      }
+    }
+  }
+}
+
+TEST_CASE("a quadratic cell fills two layers, and its volume is that of the rod") {
+  const Mesh mesh = make_mesh(make_section(5, 2), {0, 0.4, 1});
+  CHECK(mesh.s == std::vector<double>{0, 0.2, 0.4, 0.7, 1});
+  REQUIRE(mesh.cells.size() == 10);
+  CHECK(mesh.cells_before(2) == 5);
+  const HexMesh all = mesh.hexahedra();
+  double volume = 0;
+  for (const HexCell& cell : all.cells) {
+    const auto reference = hex_reference<2>(cell_nodes<2>(all, cell));
+    volume += reference.volume;
+    Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
+    for (int q = 0; q < reference.points; ++q)
+      gram += reference.weight[q] / reference.volume * reference.mode[q] *
+              reference.mode[q].transpose();
+    CHECK((gram - Eigen::Matrix4d::Identity()).norm() < 1e-12);
+  }
+  CHECK(volume == Approx(mesh.section.area()).epsilon(1e-12));
 }
 
 TEST_CASE("graded layers are fine in the knot, coarse in the tails, and end exactly") {

@@ -7,9 +7,9 @@
 
 namespace bight::test {
 
-/// Straight rod of equal layers; `axial` is the layer spacing over the section cell width.
-inline solid3d::Mesh straight_mesh(int section_cells, double length, double axial) {
-  const solid3d::Section section = solid3d::make_section(section_cells);
+/// Straight rod of equal cells; `axial` is their length over their width.
+inline solid3d::Mesh straight_mesh(int section_cells, double length, double axial, int degree = 1) {
+  const solid3d::Section section = solid3d::make_section(section_cells, degree);
   const double width = section.cell_width();
   const int count = std::max(2, static_cast<int>(std::lround(length / (axial * width))));
   std::vector<double> s;

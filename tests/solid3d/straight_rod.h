@@ -7,6 +7,7 @@
 #include "mechanics/newton.h"
 #include "solid3d/effects.h"
 #include "solid3d/effects/grip.h"
+#include "solid3d/elements.h"
 #include "solid3d/section_motion.h"
 #include "tests/solid3d/shapes.h"
 
@@ -35,7 +36,7 @@ struct RodSolution {
 /// strain would be.
 inline RodSolution bent_rod(const RodOf& rod, double length, const Strains& strain) {
   using namespace solid3d;
-  const Mesh mesh = straight_mesh(rod.cells, length, rod.axial);
+  const Mesh mesh = straight_mesh(rod.cells, length, rod.axial, hex_element(rod.element).degree);
   SolidParameters parameters;
   parameters.contact = false;
   parameters.element = rod.element;
@@ -44,7 +45,7 @@ inline RodSolution bent_rod(const RodOf& rod, double length, const Strains& stra
   const Grip grip{false, false, {}};
   const int internal = grip.coordinates(mesh);
   SolidEffects effects = make_effects(mesh, parameters, internal);
-  Vector x = reference_state(mesh, 2 * static_cast<int>(mesh.cells.size()));
+  Vector x = reference_state(mesh, effects.strain->internals());
   const Unknowns unknowns = grip.unknowns(mesh, static_cast<int>(x.size()));
   Assembler assembler(unknowns, effects.list);
   SparseCholesky cholesky;

@@ -26,7 +26,7 @@ std::vector<Rubber> rubbers() {
 /// A distorted patch with all of its surface moved by F x.
 test::HexProblem moved_patch(const Material& material, const HexElement& element,
                              const Matrix3& F) {
-  test::HexProblem problem(test::distorted_patch(), material, element);
+  test::HexProblem problem(test::distorted_patch(element.degree), material, element);
   problem.each([](const Vector3& X) { return X.minCoeff() == 0 || X.maxCoeff() == 1; },
                [&](int node) { problem.hold(node); });
   problem.each([](const Vector3&) { return true; },
@@ -42,7 +42,7 @@ TEST_CASE(
     for (const Rubber& rubber : rubbers())
       for (const double l : {0.5, 2.0}) {
         CAPTURE(element.name, rubber.name, l);
-        test::HexProblem problem(test::distorted_patch(), rubber.material, element);
+        test::HexProblem problem(test::distorted_patch(element.degree), rubber.material, element);
         const Vector3 stretch(1 / std::sqrt(l), 1 / std::sqrt(l), l);
         problem.each([](const Vector3&) { return true; },
                      [&](int node) {
@@ -97,20 +97,22 @@ TEST_CASE("a thick tube under pressure") {
     CAPTURE(element.name);
     const double coarse = test::thick_tube(element, 8) - exact;
     const double fine = test::thick_tube(element, 16) - exact;
+    constexpr double last_digit = 5e-6;
     CHECK(std::abs(fine) < 0.001 * exact);
-    CHECK(std::abs(fine) < 0.3 * std::abs(coarse));
+    CHECK(std::abs(fine) < std::max(0.3 * std::abs(coarse), last_digit));
   }
 }
 
 TEST_CASE("Cook's membrane, compressible") {
   for (const HexElement& element : hex_elements()) {
     CAPTURE(element.name);
+    constexpr double last_digit = 5e-3;
     for (const auto& [plane_strain, converged] :
          {std::pair(false, 14.33), std::pair(true, 13.77)}) {
       const double coarse = converged - test::cook_compressible(element, 8, plane_strain);
       const double fine = converged - test::cook_compressible(element, 16, plane_strain);
       CHECK(std::abs(fine) < 0.01 * converged);
-      CHECK(std::abs(fine) < 0.4 * std::abs(coarse));
+      CHECK(std::abs(fine) < std::max(0.4 * std::abs(coarse), last_digit));
     }
   }
 }
@@ -137,5 +139,5 @@ TEST_CASE("a partly pressed block converges for every element", "[long]") {
         Approx(40.56242425245286).epsilon(1e-9));
   // 39.92 with 4^3 cells of second order (Ikarus, continuous pressure).
   for (const HexElement& element : hex_elements())
-    CHECK(test::partly_pressed_block(element, 16) == Approx(39.92).epsilon(0.025));
+    CHECK(test::partly_pressed_block(element, 16 / element.degree) == Approx(39.92).epsilon(0.025));
 }

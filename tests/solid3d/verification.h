@@ -14,11 +14,13 @@ using solid3d::Material;
 
 inline bool at(double a, double b) { return std::abs(a - b) < 1e-9; }
 
-/// A cube of 3 x 3 x 3 cells whose inner nodes are moved at random: a distorted patch.
-inline solid3d::HexMesh distorted_patch() {
-  solid3d::HexMesh mesh = brick({3, 3, 3}, [](const Vector3& X) { return X; });
+/// A cube of 3 x 3 x 3 cells whose inner nodes are moved at random: a distorted patch, of degree 2
+/// with curved sides.
+inline solid3d::HexMesh distorted_patch(int degree) {
+  solid3d::HexMesh mesh = brick(degree, {3, 3, 3}, [](const Vector3& X) { return X; });
   std::mt19937 generator(11);
-  std::uniform_real_distribution<double> move(-0.08, 0.08);
+  const double most = 0.08 / (degree * degree);
+  std::uniform_real_distribution<double> move(-most, most);
   for (Vector3& X : mesh.nodes)
     if (X.minCoeff() > 0.1 && X.maxCoeff() < 0.9)
       X += Vector3(move(generator), move(generator), move(generator));
@@ -32,7 +34,7 @@ struct TorsionErrors {
 };
 inline TorsionErrors torsion(const HexElement& element, int cells, double psi) {
   const solid3d::NeoHookean material{1, 1e5};
-  const solid3d::Mesh rod = solid3d::make_mesh(solid3d::make_section(cells), [&] {
+  const solid3d::Mesh rod = solid3d::make_mesh(solid3d::make_section(cells, element.degree), [&] {
     const double width = std::sqrt(M_PI / 4 / cells);
     const int layers = static_cast<int>(std::ceil(1 / width));
     std::vector<double> s;
@@ -67,7 +69,7 @@ inline TorsionErrors torsion(const HexElement& element, int cells, double psi) {
 /// 1.5; a quarter of n x n cells. Incompressible: 0.42823.
 inline double thick_tube(const HexElement& element, int n) {
   constexpr double blown = 1.5, height = 0.25;
-  HexProblem problem(brick({n, n, 1},
+  HexProblem problem(brick(element.degree, {n, n, 1},
                            [&](const Vector3& u) {
                              const double r = 1 + u.x(), angle = M_PI / 2 * u.y();
                              return Vector3(r * std::cos(angle), r * std::sin(angle),
@@ -91,9 +93,11 @@ inline double thick_tube(const HexElement& element, int n) {
   problem.each(inner, [&](int node) {
     outwards += result.gradient.segment<2>(3 * node).dot(problem.position(node).head<2>()) / blown;
   });
-  // Forces on nodes are along their radii: over the faces, p times the length of the arc's chords.
-  const double chord = 2 * blown * std::sin(M_PI / 4 / n);
-  return outwards / (n * chord * height * std::cos(M_PI / 4 / n));
+  // The nodes' forces are along their radii r: p times the growth of the area inside by r, which
+  // is twice the area over r. Triangles, and of degree 2 the segments of parabolas on them.
+  const double half = M_PI / 4 / n, chord = 2 * std::sin(half);
+  const double parabola = element.degree == 2 ? 4.0 / 3 * chord * (1 - std::cos(half)) : 0;
+  return outwards / (n * blown * height * (std::sin(2 * half) + parabola));
 }
 
 /// Rise of the upper corner of Cook's membrane [mm] of thickness 1, n x n cells, under a dead total
@@ -102,7 +106,7 @@ inline double thick_tube(const HexElement& element, int n) {
 inline double cook(const HexElement& element, int n, const Material& material, double force,
                    bool plane_strain) {
   const double thickness = plane_strain ? 1 : 0.5;
-  HexProblem problem(brick({n, n, 1},
+  HexProblem problem(brick(element.degree, {n, n, 1},
                            [&](const Vector3& u) {
                              const double x = 48 * u.x(), low = 44 * u.x(), high = 44 + 16 * u.x();
                              return Vector3(x, low + u.y() * (high - low), thickness * u.z());
@@ -119,7 +123,7 @@ inline double cook(const HexElement& element, int n, const Material& material, d
 
 /// Compressible: mu = 0.4225 MPa, nu = 0.3, 1 N (Miehe 1994). 14.33 mm with faces that are free:
 /// Pelteret and McBride, deal.II code gallery (2016), second order; said to be plane strain, but
-/// the program looks for its faces at x = 1/2 instead of z. In plane strain both elements go
+/// the program looks for its faces at x = 1/2 instead of z. In plane strain all elements go
 /// to 13.77.
 inline double cook_compressible(const HexElement& element, int n, bool plane_strain) {
   constexpr double mu = 0.4225, nu = 0.3;
@@ -140,7 +144,7 @@ inline double cook_incompressible(const HexElement& element, int n) {
 /// et al. (2021): mu = 1.61148 MPa, lambda = 499.92568 MPa.
 inline double partly_pressed_block(const HexElement& element, int n) {
   constexpr double mu = 1.61148, lambda = 499.92568, L = 50;
-  HexProblem problem(brick({n, n, n}, [&](const Vector3& u) { return L * u; }),
+  HexProblem problem(brick(element.degree, {n, n, n}, [&](const Vector3& u) { return L * u; }),
                      solid3d::NeoHookean{mu, lambda + 2 * mu / 3}, element);
   for (size_t i = 0; i < problem.mesh().nodes.size(); ++i) {
     const Vector3& X = problem.mesh().nodes[i];
