@@ -33,14 +33,30 @@ SolidMotion::~SolidMotion() {
   std::erase_if(effects_, [this](const auto& effect) { return effect.get() == pull_; });
 }
 
-/// The guess goes on at the last velocities, every section along its own arc.
+/// The guess goes on at the last velocities, every section along its own arc; held coordinates, and
+/// the pressures of the cells between, go where they will be.
+Vector SolidMotion::guess(const Stage& stage) const {
+  Vector x = stage.from, step = stage.step;
+  if (!parameters_.prescribe) {
+    for (const auto& effect : effects_) effect->recover(x, step);
+    system_.advance(x, step);
+    return x;
+  }
+  const Unknowns& unknowns = system_.assembler.unknowns();
+  Vector there = x, velocity = step;
+  parameters_.prescribe(stage.time, there, velocity);
+  for (int c = 0; c < unknowns.coordinates(); ++c)
+    if (there[c] != x[c] || (unknowns.index(c) < 0 && unknowns.turn_of(c) < 0))
+      step[c] = there[c] - x[c];
+  for (const auto& effect : effects_) effect->recover(x, step);
+  system_.advance(x, step);
+  parameters_.prescribe(stage.time, x, velocity);
+  return x;
+}
+
 std::optional<Vector> SolidMotion::solve(const Stage& stage) {
-  Vector guess = stage.from, step = stage.step, velocity = step;
-  for (const auto& effect : effects_) effect->recover(guess, step);
-  system_.advance(guess, step);
-  if (parameters_.prescribe) parameters_.prescribe(stage.time, guess, velocity);
   pull_->set(stage.strength, stage.target);
-  NewtonResult result = minimise_(guess);
+  NewtonResult result = minimise_(guess(stage));
   pull_->rest();
   iterations_ += result.iterations;
   factorisations_ += result.factorisations;

@@ -59,6 +59,7 @@ class SolidMotion {
 
  private:
   std::optional<Vector> solve(const Stage& stage);
+  Vector guess(const Stage& stage) const;
 
   System& system_;
   EffectList& effects_;

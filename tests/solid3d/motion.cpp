@@ -75,7 +75,9 @@ Vibration vibration(const Bar& bar, SolidProblem& problem, Mode&& mode, double a
   double t0 = 0, q0 = 0, v0 = weight.dot(size * shape);
   zeros.push_back({0, v0});
   while (zeros.size() < 3) {
-    REQUIRE(motion->step(1e4));
+    const bool stepped = motion->step(1e4);
+    INFO(motion->reason());
+    REQUIRE(stepped);
     const double t = motion->time(), q = weight.dot(motion->x() - rest),
                  v = weight.dot(motion->v());
     if (q0 < 0 && q >= 0) {
