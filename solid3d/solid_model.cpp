@@ -155,6 +155,7 @@ SolidState SolidModel::state(double ebar) {
   s.tension = tension_;
   s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
   if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
+  if (motion_) s.energy_by_effect["inertia"] = motion_->kinetic_energy();
   return s;
 }
 
