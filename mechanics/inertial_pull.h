@@ -14,7 +14,7 @@ namespace bight {
 class InertialPull final : public Effect {
  public:
   /// `mass`: by coordinates [rho D^3]; of an angle, what the points that it carries weigh is there
-  /// already. Must not outlive `unknowns`.
+  /// already.
   InertialPull(const Unknowns& unknowns, const Vector& mass) : mass_(mass) {
     for (int c = 0; c < unknowns.coordinates(); ++c)
       if (unknowns.index(c) >= 0 && mass[c] > 0) coordinates_.push_back(c);

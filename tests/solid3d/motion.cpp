@@ -4,6 +4,7 @@
 #include "solid3d/effects/gravity.h"
 #include "solid3d/solid_motion.h"
 #include "solid3d/solid_problem.h"
+#include "tests/derivatives.h"
 
 using namespace bight;
 using namespace bight::solid3d;
@@ -141,6 +142,26 @@ TEST_CASE("lumped masses are positive and weigh what the solid does") {
   CHECK(bar.mass.sum() / 3 == Approx(3 * bar.mesh.section.area()).epsilon(1e-12));
 }
 
+TEST_CASE("points that a turn carries weigh on its angle as their moment of inertia") {
+  // Two points on a radius of 2 and 1 about z, and a free one; the angle is the last coordinate.
+  const Turn turn{{0, 0, 1}, {0, 0, 1}, 9, {0, 3}};
+  const std::vector<bool> held(10, false);
+  const Unknowns unknowns({0, 3, 6, 9}, 10, held, {turn});
+  Vector x(10), mass(10);
+  x << 2, 0, 5, 0, -1, 7, 1, 1, 1, 0.3;
+  mass << 3, 3, 3, 4, 4, 4, 5, 5, 5, 0;
+  const Vector moved = unknowns.moved_mass(x, mass);
+  CHECK(moved[9] == Approx(3 * 4 + 4 * 1));
+  CHECK(moved.head<6>().norm() == 0);
+  CHECK(moved.segment<3>(6) == mass.segment<3>(6));
+  // Of a stage: a pull along every unknown, the angle's too.
+  InertialPull pull(unknowns, moved);
+  CHECK(pull.stencils() == 0);
+  pull.set(0.5, x + Vector::Constant(10, 0.1));
+  CHECK(pull.stencils() == 4);
+  test::check_derivatives(pull, x, 10);
+}
+
 TEST_CASE("a solid cantilever vibrates as a beam, and decays with alpha/2") {
   Bar bar(6, 0.25), other(6, 0.25);
   const Section& section = bar.mesh.section;
@@ -155,22 +176,19 @@ TEST_CASE("a solid cantilever vibrates as a beam, and decays with alpha/2") {
   const double beam =
       1 / std::sqrt((1 + 4.648 * radius2 / (L * L)) / (euler * euler) + 1 / (shear * shear));
   const Vibration free = vibration(bar, Bending{L}, 0, 1e-3);
-  CHECK(free.frequency == Approx(beam).epsilon(0.09));  // long cells and a clamp that is stiff
+  CHECK(free.frequency == Approx(beam).epsilon(0.05));  // long cells and a clamp that is stiff
   // The same cells at rest are as stiff.
   const double soft = softness(bar, 1 / (L * L * L / (3 * I) + L / shear_stiffness));
   CHECK(free.frequency == Approx(beam / std::sqrt(soft)).epsilon(0.01));
   CHECK(free.lost > 0);  // the integrator is L-stable: it never gives energy
-  CHECK(free.lost < 0.01);
-  WARN(free.frequency / euler << " " << free.frequency / beam << " " << soft << " "
-                              << free.frequency / beam * std::sqrt(soft) << " " << free.lost);
+  CHECK(free.lost < 2e-3);
 
   const double alpha = 0.2 * free.frequency;
   const Vibration damped = vibration(other, Bending{L}, alpha, 1e-3);
   CHECK(damped.decay == Approx(0.5 * alpha).epsilon(0.01));
   CHECK(damped.frequency ==
         Approx(std::sqrt(free.frequency * free.frequency - 0.25 * alpha * alpha)).epsilon(2e-3));
-  CHECK(std::abs(damped.lost) < 0.01);
-  WARN(damped.decay / (0.5 * alpha) << " " << damped.lost);
+  CHECK(std::abs(damped.lost) < 1e-3);
 }
 
 TEST_CASE("a solid bar vibrates along itself with a quarter of its wave") {
@@ -178,11 +196,10 @@ TEST_CASE("a solid bar vibrates along itself with a quarter of its wave") {
   const double exact = M_PI / (2 * bar.length);  // wave speed sqrt(E/rho) = 1
   const Vibration coarse = vibration(bar, Stretching{bar.length}, 0, 1e-2);
   const Vibration fine = vibration(other, Stretching{bar.length}, 0, 1e-3);
-  WARN(fine.frequency / exact << " lost " << coarse.lost << " " << fine.lost);
   CHECK(fine.frequency == Approx(exact).epsilon(0.025));
   CHECK(fine.lost > 0);
-  CHECK(fine.lost < 0.5 * coarse.lost);
-  CHECK(fine.lost < 0.01);
+  CHECK(fine.lost < 0.1 * coarse.lost);
+  CHECK(fine.lost < 4e-3);
 }
 
 TEST_CASE("a solid falls freely, and turns and drifts with the momentum that it has") {
@@ -207,7 +224,5 @@ TEST_CASE("a solid falls freely, and turns and drifts with the momentum that it 
       bar.spin(motion->x(), motion->v()) - centre.cross(Vector3(bar.momentum(motion->v())));
   const Vector3 spin_before = bar.spin(bar.problem.state(), v) - weight * middle.cross(drift);
   CHECK((spin - spin_before).norm() < 2e-3 * spin_before.norm());
-  CHECK(motion->energy() == Approx(energy).epsilon(1e-4));
-  WARN(motion->steps() << " spin " << (spin - spin_before).norm() / spin_before.norm() << " energy "
-                       << motion->energy() / energy - 1);
+  CHECK(motion->energy() == Approx(energy).epsilon(1e-5));
 }
