@@ -81,14 +81,13 @@ TEST_CASE("a slow pull of a solid knot in time agrees with equilibria", "[.long]
   const solid3d::SolidResult still = pull({20, 18}, 0, 0.8);
   const double paper = difference(pull({20, 18}, slow, 0.8), still);
   const double hundredfold = difference(pull({20, 18}, 100 * slow, 0.8), still);
-  WARN("0.5 mm/s: " << paper << ", 50 mm/s: " << hundredfold);
-  CHECK(paper < 2e-4);
+  CHECK(paper < 1e-4);
   CHECK(hundredfold < 0.01);
+  CHECK(hundredfold > 20 * paper);  // it swings
 }
 
-TEST_CASE("with friction too", "[.long]") {
+TEST_CASE("a slow pull in time of a solid knot with friction agrees with equilibria", "[.long]") {
   const solid3d::SolidResult still = pull({20, 19}, 0, 1, 0.32);
   const double rubbing = difference(pull({20, 19}, slow, 1, 0.32), still);
-  WARN("mu = 0.32: " << rubbing);
   CHECK(rubbing < 0.01);
 }
