@@ -70,6 +70,8 @@ class Check {
     if (scene_.friction > 0)
       refuse("solid3d.confirm_at",
              "with friction a state depends on its path, which another mesh has not gone");
+    if (scene_.inertia)
+      refuse("solid3d.confirm_at", "only equilibria are confirmed, without effects.inertia");
     const auto [low, high] =
         std::ranges::minmax(path_from_seed(scene_.path, scene_.seed_ebar).waypoints);
     for (const double ebar : scene_.confirm_at)

@@ -20,10 +20,10 @@ std::vector<KnownEffect> known_effects(const Scene& scene) {
       {"natural curvature", "rod.natural_curvature", true, false, scene.natural_curvature != 0,
        rod_alone},
       {"natural twist", "rod.natural_twist", true, false, scene.natural_twist != 0, rod_alone},
-      {"gravity", "effects.gravity", true, false, weighs, rod_alone},
+      {"gravity", "effects.gravity", true, true, weighs},
       {"magnetic", "effects.magnetic_field", true, false, magnetic, rod_alone},
-      {"inertia", "effects.inertia", true, false, scene.inertia, rod_alone},
-      {"damping", "effects.damping", true, false, scene.damping > 0, rod_alone},
+      {"inertia", "effects.inertia", true, true, scene.inertia},
+      {"damping", "effects.damping", true, true, scene.damping > 0},
   };
 }
 

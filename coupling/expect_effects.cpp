@@ -26,10 +26,13 @@ struct Measured {
 constexpr Measured of_rod[] = {{"stretch", 3e-6},       {"bend", 4.3e-6},   {"twist", 12e-6},
                                {"gravity", 0.7e-6},     {"magnetic", 3e-6}, {"contact", 16e-6, 2},
                                {"friction", 54e-6, 0.1}};
-constexpr Measured of_solid[] = {
-    {"strain", 26e-6}, {"hourglass", 8e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};
+constexpr Measured of_solid[] = {{"strain", 26e-6},
+                                 {"hourglass", 8e-6},
+                                 {"gravity", 0.7e-6},
+                                 {"contact", 160e-6, 3.5},
+                                 {"friction", 51e-6, 3.5}};
 constexpr Measured of_quadratic[] = {
-    {"strain", 220e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};
+    {"strain", 220e-6}, {"gravity", 0.7e-6}, {"contact", 160e-6, 3.5}, {"friction", 51e-6, 3.5}};
 constexpr double rod_solve = 3.6e-6;  // per unknown
 constexpr double large_block = 200;   // of a factorisation, which is slower with smaller ones
 constexpr double flops = 1e10;        // per second, with large ones
@@ -40,6 +43,12 @@ void finish(std::vector<ExpectedCost>& costs, double solving) {
   double sum = 0;
   for (const ExpectedCost& cost : costs) sum += cost.share;
   for (ExpectedCost& cost : costs) cost.share /= sum;
+}
+
+// No stencils of their own: masses of the nodes, on the diagonal of the equations.
+void add_motion(std::vector<ExpectedCost>& costs, bool inertia, double damping) {
+  if (inertia) costs.emplace_back("inertia");
+  if (damping > 0) costs.emplace_back("damping");
 }
 
 std::vector<ExpectedCost> expected(const Assembler& assembler, std::span<const Measured> measured,
@@ -68,9 +77,7 @@ std::vector<ExpectedCost> expected_rod(const Scene& scene) {
   const auto held = held_coordinates(rod, parameters.twist, parameters.finish_turns);
   const Unknowns unknowns(rod.blocks(parameters.twist), static_cast<int>(held.size()), held);
   auto costs = expected(Assembler(unknowns, effects.list), of_rod, parameters.segments);
-  // No stencils: masses of the nodes, inside the integrator's equations.
-  if (parameters.inertia) costs.emplace_back("inertia");
-  if (parameters.damping > 0) costs.emplace_back("damping");
+  add_motion(costs, parameters.inertia, parameters.damping);
   finish(costs, rod_solve * unknowns.size());
   return costs;
 }
@@ -86,6 +93,7 @@ std::vector<ExpectedCost> expected_solid(const Scene& scene, const solid3d::Mesh
   auto costs = expected(Assembler(unknowns, effects.list),
                         quadratic ? std::span<const Measured>(of_quadratic) : of_solid,
                         1 / (spacing * spacing));
+  add_motion(costs, parameters.inertia, parameters.damping);
   // A layer couples with the next, of b unknowns each: 7/3 b^3, and contact about doubles that. Of
   // quadratic cells three couple at once: 19/3 and 7/3 b^3 in turn.
   const double b = 3.0 * mesh.points_per_layer(), slow = std::min(1.0, b / large_block);

@@ -111,7 +111,7 @@ const std::vector<Key>& all_keys() {
        "false for a frictionless, naturally straight rod with a free-twist end, else true",
        "The rod's twist angles are unknowns"},
       {"effects.gravity", quantity, "m/s^2", {0, 1e6}, {}, "0", "",
-       "Acceleration of gravity, by which the rod's mass is drawn"},
+       "Acceleration of gravity, by which mass is drawn"},
       {"effects.gravity_direction", numbers, "", {-1, 1}, {}, "[0, -1, 0]", "",
        "Where gravity points; the ends lie on the z axis"},
       {"effects.magnetic_field", quantity, "T", {0, 1e3}, {}, "0", "",
@@ -119,7 +119,7 @@ const std::vector<Key>& all_keys() {
       {"effects.magnetic_direction", numbers, "", {-1, 1}, {}, "[1, 0, 0]", "",
        "Where the magnetic field points; the ends lie on the z axis"},
       {"effects.inertia", boolean, "", {}, {}, "false", "",
-       "The rod's path is followed in time, at path.speed, instead of through equilibria"},
+       "The path is followed in time, at path.speed, instead of through equilibria"},
       {"effects.damping", quantity, "1/s", {0, 1e9}, {}, "0", "",
        "Rayleigh's alpha: force against motion per mass and velocity; needs inertia"},
 

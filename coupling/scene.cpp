@@ -230,6 +230,11 @@ solid3d::SolidParameters solid_parameters(const Scene& scene) {
   solid.sample_spacing = scene.sample_spacing;
   solid.symmetry = scene.symmetry;
   solid.friction = scene.friction;
+  solid.gravity = scene.gravity / scene.scales().acceleration();
+  solid.inertia = scene.inertia;
+  solid.damping = scene.damping * scene.scales().time();
+  solid.speed = scene.speed / scene.scales().speed();
+  solid.time_tolerance = scene.time_tolerance;
   Path path = scene.path;
   for (const double ebar : scene.confirm_at)
     if (std::ranges::count(path.record, ebar) == 0) path.record.push_back(ebar);

@@ -3,6 +3,7 @@
 #include <arkode/arkode_arkstep.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_nonlinearsolver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,22 @@ constexpr const char* method = "ARKODE_ESDIRK324L2SA_4_2_3";
 /// Newton in a stage stops at this part of the error allowed.
 constexpr double newton_share = 0.01;
 constexpr int newton_iterations = 8;
+/// Where the choice of step lengths begins [D sqrt(rho/E)].
+constexpr double first_step = 0.1;
 /// Failures of one step before it is given up.
 constexpr int most_failures = 30;
+
+/// Alexander's SDIRK of three stages; the error estimate leaves out the last one.
+ARKodeButcherTable sdirk() {
+  const double g = 0.43586652150845899942, half = 0.5 * (1 - g);
+  const double b1 = -0.25 * (6 * g * g - 16 * g + 1), b2 = 0.25 * (6 * g * g - 20 * g + 5);
+  double c[] = {g, 0.5 * (1 + g), 1};
+  double A[] = {g, 0, 0, half, g, 0, b1, b2, g};
+  double b[] = {b1, b2, g};
+  const double d2 = (0.5 - g) / half;
+  double d[] = {1 - d2, d2, 0};
+  return ARKodeButcherTable_Create(3, 3, 2, c, A, b, d);
+}
 
 /// ARKODE's return values: try a shorter step, or give up.
 constexpr int fine = 0, shorter = 1;
@@ -41,6 +56,10 @@ struct Dynamics::Package {
   SparseCholesky cholesky;
   SymmetricMatrix matrix;
   int analysed_pattern = 0, factorisations = 0, evaluations = 0;
+  struct {
+    double time = 0;
+    Vector x, v;
+  } solved;  ///< the newest stage, by coordinates
   Vector gradient;
   double energy = 0;
   bool measured = false;  ///< gradient and energy are those of x
@@ -48,6 +67,7 @@ struct Dynamics::Package {
   SUNContext context = nullptr;
   N_Vector vector = nullptr;
   SUNLinearSolver solver = nullptr;
+  SUNNonlinearSolver minimiser = nullptr;
   void* arkode = nullptr;
 
   Package(const MovingBody& body, const DynamicsOptions& options, double time, const Vector& x,
@@ -56,57 +76,104 @@ struct Dynamics::Package {
         options(options),
         unknowns(body.assembler.unknowns()),
         n(unknowns.size()),
-        mass(n),
+        mass(Vector::Zero(n)),
         x(x),
         v(v),
         y(2 * n),
         time(time) {
-    if (!unknowns.turns().empty() || unknowns.has_images())
-      throw std::logic_error("dynamics knows no turns and no images");
     for (int c = 0; c < unknowns.coordinates(); ++c) {
       const int i = unknowns.index(c);
       if (i < 0) continue;
-      mass[i] = body.mass[c], y[i] = x[c], y[n + i] = v[c];
+      mass[i] += body.mass[c], y[i] = unknowns.sign(c) * x[c], y[n + i] = unknowns.sign(c) * v[c];
     }
-    place_held(time, this->x, this->v);
+    place(time, this->x, this->v);
+    solved = {time, this->x, this->v};
     SUNContext_Create(nullptr, &context);
     vector = N_VMake_Serial(2 * n, y.data(), context);
-    solver = SUNLinSolNewEmpty(context);
     arkode = ARKStepCreate(nullptr, &rates, time, vector, context);
-    if (!vector || !solver || !arkode) throw std::bad_alloc();
-    solver->content = this;
-    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
-    solver->ops->solve = &solve;
+    if (!vector || !arkode) throw std::bad_alloc();
     ARKStepSetUserData(arkode, this);
     ARKStepSetErrHandlerFn(
         arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
     ARKStepWFtolerances(arkode, &weights);
-    ARKStepSetLinearSolver(arkode, solver, nullptr);
-    ARKStepSetTableName(arkode, method, "ARKODE_ERK_NONE");
-    ARKStepSetNonlinConvCoef(arkode, newton_share);
-    ARKStepSetMaxNonlinIters(arkode, newton_iterations);
+    body.minimise ? minimise_stages() : solve_stages();
     ARKStepSetMaxConvFails(arkode, most_failures);
     ARKStepSetMaxErrTestFails(arkode, most_failures);
     if (std::isfinite(options.max_step)) ARKStepSetMaxStep(arkode, options.max_step);
   }
   ~Package() {
     ARKStepFree(&arkode);
-    SUNLinSolFreeEmpty(solver);
+    if (solver) SUNLinSolFreeEmpty(solver);
+    if (minimiser) SUNNonlinSolFreeEmpty(minimiser);
     N_VDestroy(vector);
     SUNContext_Free(&context);
   }
 
-  void place_held(double t, Vector& at, Vector& velocity) const {
-    if (body.prescribe) body.prescribe(t, at, velocity);
+  /// ARKODE's own Newton, with our linear solver.
+  void solve_stages() {
+    solver = SUNLinSolNewEmpty(context);
+    if (!solver) throw std::bad_alloc();
+    solver->content = this;
+    solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
+    solver->ops->solve = &solve;
+    ARKStepSetLinearSolver(arkode, solver, nullptr);
+    ARKStepSetTableName(arkode, method, "ARKODE_ERK_NONE");
+    ARKStepSetNonlinConvCoef(arkode, newton_share);
+    ARKStepSetMaxNonlinIters(arkode, newton_iterations);
   }
-  void spread(const Eigen::Ref<const Vector>& values, Vector& by_coordinates) const {
+  /// The model's Newton.
+  void minimise_stages() {
+    minimiser = SUNNonlinSolNewEmpty(context);
+    if (!minimiser) throw std::bad_alloc();
+    minimiser->content = this;
+    minimiser->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_ROOTFIND; };
+    minimiser->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) -> int {
+      return SUN_NLS_SUCCESS;
+    };
+    minimiser->ops->solve = &minimise;
+    ARKStepSetNonlinearSolver(arkode, minimiser);
+    const ARKodeButcherTable table = sdirk();
+    ARKStepSetTables(arkode, table->q, table->p, table, nullptr);
+    ARKodeButcherTable_Free(table);
+    ARKStepSetInterpolantType(arkode, ARK_INTERP_LAGRANGE);
+    ARKStepSetDeduceImplicitRhs(arkode, SUNTRUE);
+    ARKStepSetInitStep(arkode, std::min(first_step, options.max_step));
+  }
+
+  /// What is no unknown, where the unknowns and the time put it.
+  void place(double t, Vector& at, Vector& velocity) const {
+    for (const Turn& turn : unknowns.turns())
+      for (int first : turn.carried)
+        velocity.segment<3>(first) =
+            Unknowns::velocity(turn, at.segment<3>(first)) * velocity[turn.angle];
+    if (body.prescribe) body.prescribe(t, at, velocity);
+    for (const auto& effect : body.assembler.effects()) effect->settle(at);
+  }
+  void put(const Eigen::Ref<const Vector>& values, Vector& by_coordinates) const {
     for (int c = 0; c < unknowns.coordinates(); ++c)
-      if (unknowns.index(c) >= 0) by_coordinates[c] = values[unknowns.index(c)];
+      if (unknowns.index(c) >= 0) by_coordinates[c] = unknowns.sign(c) * values[unknowns.index(c)];
+  }
+  Vector taken(const Vector& by_coordinates) const {
+    Vector values(n);
+    for (int c = 0; c < unknowns.coordinates(); ++c)
+      if (unknowns.index(c) >= 0) values[unknowns.index(c)] = unknowns.sign(c) * by_coordinates[c];
+    return values;
+  }
+  /// Unknowns put into a state; carried points turn with their angles.
+  void spread(const Eigen::Ref<const Vector>& values, Vector& at) const {
+    if (!unknowns.turns().empty()) {
+      Vector turning = Vector::Zero(at.size());
+      for (const Turn& turn : unknowns.turns())
+        turning[turn.angle] =
+            unknowns.sign(turn.angle) * values[unknowns.index(turn.angle)] - at[turn.angle];
+      unknowns.advance(at, turning);
+    }
+    put(values, at);
   }
   Vector state(double t, const Eigen::Ref<const Vector>& values) const {
     Vector at = x, velocity = v;
-    place_held(t, at, velocity);
     spread(values.head(n), at);
+    place(t, at, velocity);
     return at;
   }
 
@@ -157,6 +224,32 @@ struct Dynamics::Package {
     out.tail(my.n) = dv;
     out.head(my.n) = b_x + gamma * dv;
     return dv.allFinite() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  }
+
+  /// Of the stage's equations z = a + gamma (v, -alpha v - M^-1 dW/dx).
+  static int minimise(SUNNonlinearSolver solver, N_Vector, N_Vector correction, N_Vector,
+                      sunrealtype, booleantype, void*) {
+    Package& my = *static_cast<Package*>(solver->content);
+    sunrealtype t = 0, gamma = 0;
+    N_Vector predicted, current, rate, constant;
+    void* unused;
+    ARKStepGetNonlinearSystemData(my.arkode, &t, &predicted, &current, &rate, &gamma, &constant,
+                                  &unused);
+    const Vector a = mapped(predicted) + mapped(constant);
+    const double drag = 1 + gamma * my.body.damping;
+    Stage stage{t, drag / (gamma * gamma), my.x, my.solved.x, (t - my.solved.time) * my.solved.v};
+    my.put(a.head(my.n) + gamma / drag * a.tail(my.n), stage.target);
+    my.measured = false;
+    const std::optional<Vector> found = my.body.minimise(stage);
+    if (!found) return SUN_NLS_CONV_RECVR;
+    Vector z(2 * my.n);
+    z.head(my.n) = my.taken(*found);
+    z.tail(my.n) = (z.head(my.n) - a.head(my.n)) / gamma;
+    my.solved = {t, *found, my.v};
+    my.put(z.tail(my.n), my.solved.v);
+    my.place(t, my.solved.x, my.solved.v);
+    mapped(correction) = z - mapped(predicted);
+    return SUN_NLS_SUCCESS;
   }
 
   bool factor(double t, const Eigen::Ref<const Vector>& values, double gamma) {
@@ -224,14 +317,17 @@ bool Dynamics::step(double last) {
     return false;
   }
   my.time = t;
-  my.place_held(t, my.x, my.v);
   my.spread(my.y.head(my.n), my.x);
-  my.spread(my.y.tail(my.n), my.v);
+  my.put(my.y.tail(my.n), my.v);
+  my.place(t, my.x, my.v);
+  my.solved = {t, my.x, my.v};
   return true;
 }
 
 void Dynamics::forces_changed() {
   package_->measured = false;
+  // Steps whose stages are all implicit know nothing of the forces before.
+  if (package_->body.minimise) return;
   ARKStepReset(package_->arkode, package_->time, package_->vector);
 }
 

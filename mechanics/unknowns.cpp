@@ -61,6 +61,15 @@ Vector Unknowns::expand(const Vector& x, const Vector& step) const {
   return dx;
 }
 
+Vector Unknowns::moved_mass(const Vector& x, Vector mass) const {
+  for (const Turn& turn : turns_)
+    for (int first : turn.carried) {
+      mass[turn.angle] += mass[first] * velocity(turn, x.segment<3>(first)).squaredNorm();
+      mass.segment<3>(first).setZero();
+    }
+  return mass;
+}
+
 void Unknowns::advance(Vector& x, const Vector& dx) const {
   if (turns_.empty()) {
     x += dx;

@@ -64,6 +64,10 @@ class Unknowns {
   static Vector3 velocity(const Turn& turn, const Vector3& position);
   static Vector3 acceleration(const Turn& turn, const Vector3& position);
 
+  /// Mass by coordinates where the unknowns move it: that of carried points becomes the moment of
+  /// inertia of their angle, m |axis x (position - point)|^2, which a turn leaves as it is.
+  Vector moved_mass(const Vector& x, Vector mass) const;
+
   /// x + dx, with carried points rotated exactly.
   void advance(Vector& x, const Vector& dx) const;
 

@@ -1,5 +1,7 @@
 #include "rod1d/rod_motion.h"
 
+#include "rod1d/effects/inertia.h"
+
 namespace bight::rod1d {
 
 RodMotion::RodMotion(const Rod& rod, const EffectList& effects, Frames& source,

@@ -1,19 +1,10 @@
 #pragma once
 
 #include "mechanics/dynamics.h"
-#include "rod1d/effects/damping.h"
 #include "rod1d/frames.h"
 #include "rod1d/rod.h"
 
 namespace bight::rod1d {
-
-/// How a rod moves in time: damped or not, its held coordinates at rest or driven, how exactly.
-/// Time in D sqrt(rho/E), velocities in sqrt(E/rho).
-struct MotionParameters {
-  Damping damping;
-  DynamicsOptions options;
-  std::function<void(double time, Vector& x, Vector& v)> prescribe;
-};
 
 /// A rod in motion, with inertia: its effects, and the frames that twist is counted from, carried
 /// along with every step.

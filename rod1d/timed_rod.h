@@ -3,9 +3,9 @@
 #include <chrono>
 #include <memory>
 
+#include "mechanics/end_motion.h"
 #include "mechanics/path.h"
 #include "rod1d/effects.h"
-#include "rod1d/end_motion.h"
 #include "rod1d/rod_motion.h"
 
 namespace bight::rod1d {

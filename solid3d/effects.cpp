@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "solid3d/effects/gravity.h"
 #include "solid3d/elements.h"
 
 namespace bight::solid3d {
@@ -35,6 +36,7 @@ SolidEffects make_effects(std::span<const Mesh> strands, const SolidParameters& 
                                element.quadrature, first_cell);
   effects.hourglass = add<Hourglass>(effects.list, element.hourglass, mesh,
                                      p.material.shear_modulus(), p.hourglass_factor, first_cell);
+  if (p.gravity != Vector3::Zero()) effects.list.push_back(gravity(mesh, p.gravity));
   effects.contact = add<Contact>(effects.list, p.contact, strands,
                                  ContactLaw{p.contact_stiffness, p.contact_onset}, contact);
   if (effects.contact)

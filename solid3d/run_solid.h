@@ -21,14 +21,19 @@ struct SolidParameters {
   bool finish_turns = true;             ///< finish end free to turn about the pulling axis
   bool symmetry = true;                 ///< of a start with a two-fold axis, simulate one half
   bool contact = true;
-  double friction = 0;             ///< Coulomb coefficient; 0: no friction effect
+  double friction = 0;                ///< Coulomb coefficient; 0: no friction effect
+  Vector3 gravity = Vector3::Zero();  ///< acceleration [E/(rho D)]; zero: no gravity effect
+  bool inertia = false;               ///< the path is followed in time, not through equilibria
+  double damping = 0;                 ///< in proportion to mass [1/(D sqrt(rho/E))]; needs inertia
+  double speed = 1e-5;                ///< of one end against the other, with inertia [sqrt(E/rho)]
+  double time_tolerance = 1e-4;       ///< error allowed in a time step [D]
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D], less of a loose start
   double contact_onset = 0.005;    ///< width of the rounded onset of contact [D]: a fraction of
                                    ///< the overlap at moderate load
   double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
-  int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0: none
+  int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0, or with inertia: none
   double expected_tension = 1e-3;  ///< rough T at the start [E D^2]: scale of the first tolerances
   Path path;
 };
@@ -43,11 +48,11 @@ struct SectionLoads {
 /// A recorded equilibrium of the solid, for the writers.
 struct SolidState {
   double ebar = 0;
-  std::vector<Vector3> nodes;            ///< current positions of the mesh nodes [D]
-  Polyline centerline;                   ///< middle node of each section [D]
-  std::vector<double> s;                 ///< undeformed arc length of the sections [D]
-  std::vector<double> curvature;         ///< kappa D of the centerline
-  std::vector<double> flattening;        ///< 1 - smallest diameter of the section / D
+  std::vector<Vector3> nodes;      ///< current positions of the mesh nodes [D]
+  Polyline centerline;             ///< middle node of each section [D]
+  std::vector<double> s;           ///< undeformed arc length of the sections [D]
+  std::vector<double> curvature;   ///< kappa D of the centerline
+  std::vector<double> flattening;  ///< 1 - smallest diameter of the section / D
   SectionLoads loads;
   std::vector<double> jacobian;          ///< J, per cell
   std::vector<double> pressure;          ///< mean Cauchy stress (tension positive), per cell [E]

@@ -11,7 +11,7 @@ namespace {
 /// Rotation by the vector w (axis times angle).
 Matrix3 exponential(const Vector3& w) {
   const double angle = w.norm();
-  if (angle < 1e-12) return Matrix3::Identity();
+  if (angle == 0) return Matrix3::Identity();
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 

@@ -24,7 +24,9 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
                        const SolidParameters& parameters, Clock::time_point began)
     : mesh_(mesh),
       parameters_(parameters),
-      symmetry_(parameters.symmetry ? TwoFold::find(mesh, start) : std::nullopt),
+      symmetry_(parameters.symmetry && parameters.gravity == Vector3::Zero()
+                    ? TwoFold::find(mesh, start)
+                    : std::nullopt),
       from_frame_(frame(mesh, start, symmetry_)),
       grip_(make_grip(mesh, start, parameters, symmetry_)),
       internal_begin_(grip_.coordinates(mesh)),
@@ -55,6 +57,7 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
 
 Vector SolidModel::predict(double ebar) const {
   const Station& last = history_.back();
+  if (parameters_.inertia && !relaxing_) return last.x;
   if (ebar == last.ebar) return held(last.x, ebar);
   return held(history_.size() > 1 ? extrapolate_sections(mesh_, history_, ebar) : follow_grip(ebar),
               ebar);
@@ -84,6 +87,10 @@ double SolidModel::energy(const Vector& x) {
 }
 
 StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
+  return motion_ ? moved_ : take(result, ebar);
+}
+
+StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   const Vector before = newest();
   relaxing_ = false;
   // A turn of the path or a state at the same ebar gives no rate to go on with.
@@ -148,6 +155,7 @@ SolidState SolidModel::state(double ebar) {
   s.tension = tension_;
   s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
   if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
+  if (motion_) s.energy_by_effect["inertia"] = motion_->kinetic_energy();
   return s;
 }
 
@@ -214,7 +222,8 @@ Grip SolidModel::make_grip(const Mesh& mesh, const std::vector<Vector3>& start,
   if (radius(layer).norm() < off_axis || parameters.friction > 0) return grip;
   const int at = 3 * mesh.node(layer, mesh.section.centre[0]);
   grip.pinned = {at + 2};
-  if (!parameters.finish_turns) return grip;
+  // Weight says where the knot hangs.
+  if (!parameters.finish_turns || parameters.gravity != Vector3::Zero()) return grip;
   const Vector2 r = radius(layer).cwiseAbs();
   grip.pinned.push_back(at + (r.x() > r.y() ? 1 : 0));
 

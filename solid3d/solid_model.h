@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/end_motion.h"
 #include "mechanics/newton.h"
 #include "mechanics/path.h"
 #include "solid3d/checkpoint.h"
@@ -14,12 +15,14 @@
 #include "solid3d/effects/grip.h"
 #include "solid3d/rubbing.h"
 #include "solid3d/run_solid.h"
+#include "solid3d/solid_motion.h"
 #include "solid3d/two_fold.h"
 
 namespace bight::solid3d {
 
 /// The solid as follow() sees it: its accepted states, how the next is guessed, solved and
-/// measured.
+/// measured. With inertia the start is an equilibrium, from which on the ends move at their speed:
+/// to "solve" for an ebar is to let time go on until they are there.
 class SolidModel final : public PathModel {
  public:
   using Clock = std::chrono::steady_clock;
@@ -59,6 +62,15 @@ class SolidModel final : public PathModel {
   NewtonResult solve_with_friction_frozen(const Vector& guess);
   NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_with_friction(const Vector& guess);
+  NewtonResult solve_at_rest(const Vector& guess, double ebar);
+
+  /// Takes a state over as the newest one and measures it.
+  StepRow take(const NewtonResult& result, double ebar);
+
+  void set_in_motion();
+  NewtonResult move_to(double ebar);
+  void move_grips(double time, Vector& x, Vector& v) const;
+  void follow_overlap(double moved);
   Vector held(Vector x, double ebar) const;
   Vector best_guess(const Vector& guess, double ebar);
 
@@ -120,6 +132,10 @@ class SolidModel final : public PathModel {
   std::vector<Station> history_;  ///< the last accepted states, newest last
   Rubbing rubbing_{effects_, history_};
   Vector gradient_;  ///< by coordinates, at the newest
+  std::optional<EndMotion> ends_;
+  std::unique_ptr<SolidMotion> motion_;  ///< with inertia, once the start is relaxed
+  StepRow moved_;                        ///< the newest time step
+  std::string halted_;                   ///< why time cannot go on; empty while it can
   NewtonObserver observer_;
   Clock::time_point begin_;
 };

@@ -33,6 +33,16 @@ constexpr int max_friction_passes = 10;
 }  // namespace
 
 NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
+  NewtonResult result =
+      parameters_.inertia && !relaxing_ ? move_to(ebar) : solve_at_rest(guess, ebar);
+  if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
+    result.status = NewtonStatus::rejected;
+    result.reason = "a strand has passed through another";
+  }
+  return result;
+}
+
+NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
   const auto attempt = [&] {
     start_energy_ = relaxing_ ? energy(guess) : 0;
     return effects_.friction ? solve_with_friction(guess)
@@ -45,10 +55,6 @@ NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
     const NewtonResult failed = std::move(result);
     result = attempt();
     result.count_on(failed);
-  }
-  if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
-    result.status = NewtonStatus::rejected;
-    result.reason = "a strand has passed through another";
   }
   return result;
 }

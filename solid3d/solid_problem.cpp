@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "solid3d/effects/inertia.h"
 
 namespace bight::solid3d {
 
@@ -124,20 +127,34 @@ PathOutcome SolidProblem::go(double t, double max_step,
   path.max_step = max_step;
   path.min_step = smallest_step * max_step;
   const bool in_equilibrium = solver_ && gradient_.size() > 0;
-  if (!solver_) {
-    std::vector<int> blocks;
-    for (int c = 0; c < positions_; c += 3) blocks.push_back(c);
-    solver_ = std::make_unique<Solver>(blocks, positions_, held_, effects_.list);
-    solver_->system.advance = [this](Vector& x, const Vector& dx) {
-      const Vector before = x;
-      advance_sections(strands_, x, dx);
-      for (int c = 0; c < positions_; ++c)
-        if (held_[static_cast<size_t>(c)]) x[c] = before[c];
-    };
-    scale_ = std::max(scale_, loads_->total());
-  }
+  prepare();
   return follow(path, *this, observer,
                 in_equilibrium ? PathProgress{1, time(), max_step, {}} : PathProgress{});
+}
+
+/// A solver for the present supports.
+void SolidProblem::prepare() {
+  if (solver_) return;
+  std::vector<int> blocks;
+  for (int c = 0; c < positions_; c += 3) blocks.push_back(c);
+  solver_ = std::make_unique<Solver>(blocks, positions_, held_, effects_.list);
+  solver_->system.advance = [this](Vector& x, const Vector& dx) {
+    const Vector before = x;
+    advance_sections(strands_, x, dx);
+    for (int c = 0; c < positions_; ++c)
+      if (held_[static_cast<size_t>(c)]) x[c] = before[c];
+  };
+  scale_ = std::max(scale_, loads_->total());
+}
+
+std::unique_ptr<SolidMotion> SolidProblem::release(const Vector& velocity,
+                                                   const MotionParameters& parameters) {
+  if (effects_.friction) throw std::invalid_argument("strands that rub cannot be released");
+  prepare();
+  const Vector mass = lumped_mass(hexahedra(strands_), static_cast<int>(state().size()));
+  return std::make_unique<SolidMotion>(
+      solver_->system, effects_.list, mass, 1, parameters,
+      [this](const Vector& guess) { return minimise(guess); }, state(), velocity);
 }
 
 /// Held coordinates where they are to be at t.

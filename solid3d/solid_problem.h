@@ -12,6 +12,7 @@
 #include "solid3d/effects/load.h"
 #include "solid3d/rubbing.h"
 #include "solid3d/section_motion.h"
+#include "solid3d/solid_motion.h"
 
 namespace bight::solid3d {
 
@@ -71,6 +72,13 @@ class SolidProblem final : private PathModel {
       const std::function<void(const StepRow&)>& on_step = [](const StepRow&) {});
   double time() const { return history_.back().ebar; }
 
+  /// Motion from the present state, with these velocities by coordinates. The problem keeps its own
+  /// state, goes nowhere meanwhile, and must outlive the motion. Nothing may rub.
+  std::unique_ptr<SolidMotion> release(const Vector& velocity, const MotionParameters& parameters);
+  std::unique_ptr<SolidMotion> release(const MotionParameters& parameters) {
+    return release(Vector::Zero(state().size()), parameters);
+  }
+
   const Vector& state() const { return history_.back().x; }
   Vector3 position(int node) const { return state().segment<3>(3 * node); }
   /// Force of the supports on nodes, and torque about a point.
@@ -119,6 +127,7 @@ class SolidProblem final : private PathModel {
   Vector held(Vector x, double t) const;
   Vector follow_moves(double t) const;
   void changed();
+  void prepare();
 
   SolidParameters parameters_;
   std::vector<Mesh> strands_;

@@ -67,7 +67,7 @@ TEST_CASE("a scene builds the effects that it names and no other, in every combi
       try {
         scene = read_scene(file, settings, {fidelity});
       } catch (const std::exception&) {
-        continue;  // refused: friction without contact, weight of the solid, ...
+        continue;  // refused: friction without contact, a curved solid, ...
       }
       ++scenes;
       CAPTURE(settings, fidelity);

@@ -224,12 +224,13 @@ TEST_CASE("every case that comes along is a valid scene without warnings") {
   CHECK(cases >= 7);
 }
 
-TEST_CASE("gravity, inertia and damping reach the rod in its own units") {
+TEST_CASE("gravity, inertia and damping reach rod and solid in their own units") {
   const TemporaryFolder folder;
-  const Scene scene = read_scene(
-      folder.write("knot.toml", small_scene),
-      {"fidelities=rod", "effects.gravity=9.81 m/s^2", "effects.gravity_direction=[0, 0, -0.5]",
-       "effects.inertia=true", "effects.damping=4 1/s", "path.speed=0.5 mm/s"});
+  const Scene scene =
+      read_scene(folder.write("knot.toml", small_scene),
+                 {"effects.gravity=9.81 m/s^2", "effects.gravity_direction=[0, 0, -0.5]",
+                  "effects.inertia=true", "effects.damping=4 1/s", "path.speed=0.5 mm/s",
+                  "path.time_tolerance=1e-3"});
   const auto rod = rod_parameters(scene);
   const double wave = std::sqrt(1.25e6 / 1160);  // m/s
   CHECK(rod.inertia);
@@ -238,6 +239,16 @@ TEST_CASE("gravity, inertia and damping reach the rod in its own units") {
   CHECK(rod.gravity.z() == Approx(-9.81 * 1160 * 8.3e-3 / 1.25e6));
   CHECK(rod.gravity.head<2>().norm() == 0);
   CHECK_FALSE(rod.follow_knot);
+  const auto solid = solid_parameters(scene);
+  CHECK(solid.inertia);
+  CHECK(solid.speed == rod.speed);
+  CHECK(solid.damping == rod.damping);
+  CHECK(solid.gravity == rod.gravity);
+  CHECK(solid.time_tolerance == 1e-3);
+  const std::string text = expectations(scene);
+  const std::string of_solid = text.substr(text.find("\nsolid "));
+  for (const char* effect : {"gravity ", "inertia ", "damping "})
+    CHECK_THAT(of_solid, Catch::Contains(effect));
 }
 
 TEST_CASE("a magnetic field reaches the rod in its own units, and is refused with the solid") {
@@ -256,13 +267,12 @@ TEST_CASE("a magnetic field reaches the rod in its own units, and is refused wit
         std::string::npos);
 }
 
-TEST_CASE("gravity, inertia and damping are refused where they are not simulated") {
-  const std::string solid = complaint(small_scene, {"effects.gravity=9.81"});
-  CHECK(solid.find("gravity cannot be simulated with the solid yet") != std::string::npos);
-  CHECK(complaint(small_scene, {"effects.inertia=true"}).find("with the solid yet") !=
-        std::string::npos);
-  const std::vector<std::string> rod = {"fidelities=rod", "effects.damping=1"};
-  CHECK(complaint(small_scene, rod).find("needs effects.inertia") != std::string::npos);
+TEST_CASE("gravity, inertia and damping are refused where they make no sense") {
+  for (const char* fidelity : {"fidelities=rod", "fidelities=solid"})
+    CHECK(complaint(small_scene, {fidelity, "effects.damping=1"}).find("needs effects.inertia") !=
+          std::string::npos);
+  CHECK(complaint(small_scene, {"effects.inertia=true", "solid3d.confirm_at=25"})
+            .find("only equilibria are confirmed") != std::string::npos);
   CHECK(complaint(small_scene, {"fidelities=rod", "effects.gravity_direction=[0, 0]"})
             .find("three numbers") != std::string::npos);
 }

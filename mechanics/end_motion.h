@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace bight::rod1d {
+namespace bight {
 
 /// How ebar goes from one waypoint to the next in time: at a steady speed v, which is taken up and
 /// given up smoothly within `rise`, so that no shock runs along the rod:
@@ -98,4 +98,4 @@ class EndMotion {
   std::vector<Timed> legs_;
 };
 
-}  // namespace bight::rod1d
+}  // namespace bight

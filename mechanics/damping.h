@@ -1,8 +1,8 @@
 #pragma once
 
-#include "rod1d/effects/inertia.h"
+#include "mechanics/types.h"
 
-namespace bight::rod1d {
+namespace bight {
 
 /// Damping in proportion to mass (Rayleigh's alpha), of motion against the surroundings:
 ///
@@ -17,4 +17,4 @@ struct Damping {
   }
 };
 
-}  // namespace bight::rod1d
+}  // namespace bight
