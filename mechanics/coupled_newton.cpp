@@ -16,13 +16,16 @@ constexpr int most_products = 12;
 constexpr double linear_tolerance = 1e-3;
 /// Decrements below this many tolerances are those of steps that need no search.
 constexpr double small_step = 100;
-/// Growth of the residual over its smallest value so far that ends the attempt.
-constexpr double lost = 1e3;
+/// Growth of the decrement over the first one that ends an attempt with full steps.
+constexpr double lost = 2;
+/// Times that a damped step is halved until the level falls, at most.
+constexpr int most_halvings = 2;
 
 }  // namespace
 
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
-                            const NewtonOptions& options, const NewtonObserver& observer) {
+                            const NewtonOptions& options, CoupledSteps steps,
+                            const NewtonObserver& observer) {
   Assembler& assembler = system.assembler;
   const Unknowns& unknowns = assembler.unknowns();
   NewtonResult result;
@@ -32,7 +35,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     result.x = std::move(x);
     return result;
   };
-  double least = std::numeric_limits<double>::infinity();
+  double first_decrement = 0;
   for (;; ++result.iterations) {
     forces.freeze(x);
     result.energy = evaluate(system, x, Order::hessian, result.gradient);
@@ -43,14 +46,13 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (result.iterations > 0 && result.residual <= options.force_tolerance &&
         result.decrement <= options.energy_tolerance)
       return finish(NewtonStatus::converged, "");
-    if (result.residual > lost * least) return finish(NewtonStatus::stalled, "the residual grows");
-    least = std::min(least, result.residual);
     if (result.iterations >= options.max_iterations)
       return finish(NewtonStatus::too_many_iterations, "too many iterations");
 
     Vector step;
     if (!newton_direction(system, g, options, result, step))
       return finish(NewtonStatus::no_descent, "no shift makes the tangent positive definite");
+    const double level = -g.dot(step);
     step = gmres(
         [&](const Vector& v) {
           Vector change = Vector::Zero(x.size());
@@ -60,6 +62,9 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
         step, most_products, linear_tolerance);
     if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");
     result.decrement = std::abs(g.dot(step));
+    if (result.iterations == 0) first_decrement = result.decrement;
+    if (steps == CoupledSteps::full && result.decrement > lost * first_decrement)
+      return finish(NewtonStatus::stalled, "the steps grow");
 
     const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
     const auto tell = [&](double fraction) {
@@ -72,19 +77,41 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
       system.advance(x, dx);
       continue;
     }
-    const auto energy_at = [&](double fraction) {
+    const auto at = [&](double fraction) {
       Vector trial = x;
       system.advance(trial, fraction * dx);
-      assembler.refresh(trial);
-      const double energy = assembler.energy(trial);
-      return std::isfinite(energy) ? energy : inadmissible;
+      return trial;
     };
-    // The frozen energy is what keeps a wild step in bounds; near the solution it may rise.
-    const double rise = options.bound.allowed(result.iterations) + 2 * result.decrement;
-    const LineSearchResult found = search(energy_at, result.energy, rise, longest);
-    tell(found.step);
-    if (found.step == 0) return finish(NewtonStatus::stalled, "no step lowers the energy");
-    system.advance(x, found.step * dx);
+    double fraction = 0;
+    if (steps == CoupledSteps::full) {
+      const auto energy_at = [&](double part) {
+        const Vector trial = at(part);
+        assembler.refresh(trial);
+        const double energy = assembler.energy(trial);
+        return std::isfinite(energy) ? energy : inadmissible;
+      };
+      // The frozen energy is what keeps a wild step in bounds; near the solution it may rise.
+      const double rise = options.bound.allowed(result.iterations) + 2 * result.decrement;
+      fraction = search(energy_at, result.energy, rise, longest).step;
+    } else {
+      const auto level_at = [&](double part) {
+        const Vector trial = at(part);
+        Vector gradient;
+        forces.freeze(trial);
+        if (!std::isfinite(evaluate(system, trial, Order::gradient, gradient))) return inadmissible;
+        const Vector r = unknowns.reduce(trial, gradient);
+        return r.allFinite() ? r.dot(system.cholesky.solve(r)) : inadmissible;
+      };
+      double part = longest, least = inadmissible;
+      for (int halvings = 0; halvings <= most_halvings; ++halvings, part *= 0.5) {
+        const double there = level_at(part), falls = 1 - 0.25 * part;
+        if (there < least) fraction = part, least = there;
+        if (there <= falls * falls * level) break;
+      }
+    }
+    tell(fraction);
+    if (fraction == 0) return finish(NewtonStatus::stalled, "no step is admissible");
+    x = at(fraction);
   }
 }
 

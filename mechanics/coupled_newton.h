@@ -15,17 +15,27 @@ class FollowingForces {
   virtual void add_change(const Vector& dx, Vector& gradient) const = 0;
 };
 
+enum class CoupledSteps { full, damped };
+
 /// Solves for equilibrium with following forces, from x near it: Newton's method with the whole,
 /// unsymmetric tangent H + F, where H is the frozen energy's Hessian and F the change of the
 /// following forces. The linear equations are solved by GMRES (Saad and Schultz 1986),
 /// preconditioned by the factorisation of H: H^-1 F is small in rank and size, so a few products
 /// do.
 ///
-/// There is no energy to minimise: the frozen one only bounds a wild step, and may rise by what the
-/// step is predicted to change. From a poor start it fails (`stalled`, or `too_many_iterations`),
-/// and minimisations at frozen forces have to be taken instead.
+/// There is no energy to minimise. Full steps (within a bound on the frozen energy) are the fastest
+/// where a step ends in a stiff curved valley and the next one goes back to its floor; where they
+/// grow, the attempt ends. Damped ones are halved until the natural level function falls,
+///
+///   T(x + t dx) <= (1 - t/4)^2 T(x),   T(y) = r(y) . H(x)^-1 r(y),   r the residual,
+///
+/// which does not ask how unknowns are scaled (Deuflhard, Newton Methods for Nonlinear Problems,
+/// 2004, sect. 3.3), or, where no part of the step does that, to its least value: they find the way
+/// along the soft modes of a tight knot, where full ones wander.
+///
+/// From a poor start either fails, and minimisations at frozen forces have to be taken instead.
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
-                            const NewtonOptions& options,
+                            const NewtonOptions& options, CoupledSteps steps = CoupledSteps::full,
                             const NewtonObserver& observer = {});
 
 }  // namespace bight

@@ -5,8 +5,8 @@ namespace bight::solid3d {
 namespace {
 
 /// Iterations with the last state's friction, which bring contact forces into range; with the whole
-/// tangent, at most: mostly they are 4, and those that wander do not come back.
-constexpr int few_first = 3, most_coupled = 15, most_coupled_again = 25;
+/// tangent, at most: mostly they are 4.
+constexpr int few_first = 3, most_full = 15, most_damped = 30;
 /// Relative to the force scale. The energy of the last step is the square of what it leaves.
 constexpr double first_tolerance = 1e-2, energy_tolerance = 5e-7, force_tolerance = 1e-5;
 
@@ -17,12 +17,19 @@ NewtonOptions within(NewtonOptions options, int iterations, double energy, doubl
   return options;
 }
 
-NewtonResult coupled(System& system, Rubbing& rubbing, const NewtonResult& begun, int iterations,
+/// From `begun` on, counting its iterations: full steps, then damped ones where these fail.
+NewtonResult coupled(System& system, Rubbing& rubbing, const NewtonResult& begun,
                      const NewtonOptions& options, double scale, const NewtonObserver& observer) {
-  NewtonResult result = coupled_newton(
-      system, rubbing, begun.x,
-      within(options, iterations, energy_tolerance * scale, force_tolerance * scale), observer);
-  result.count_on(begun);
+  NewtonResult result = begun;
+  for (const CoupledSteps steps : {CoupledSteps::full, CoupledSteps::damped}) {
+    const int most = steps == CoupledSteps::full ? most_full : most_damped;
+    NewtonResult next = coupled_newton(
+        system, rubbing, begun.x,
+        within(options, most, energy_tolerance * scale, force_tolerance * scale), steps, observer);
+    next.count_on(result);
+    result = std::move(next);
+    if (result.ok()) break;
+  }
   return result;
 }
 
@@ -47,19 +54,18 @@ NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& gues
     return newton(system, x, within(options, iterations, tolerance, tolerance), observer);
   };
   const NewtonResult begun = as_before(guess, few_first);
-  const NewtonResult result =
-      coupled(system, rubbing, begun, most_coupled, options, scale, observer);
+  const NewtonResult result = coupled(system, rubbing, begun, options, scale, observer);
   if (result.ok()) return result;
   NewtonResult nearer = as_before(begun.x, options.max_iterations);
   nearer.count_on(result);
   if (!nearer.ok()) return nearer;
-  return coupled(system, rubbing, nearer, most_coupled_again, options, scale, observer);
+  return coupled(system, rubbing, nearer, options, scale, observer);
 }
 
 NewtonResult newton_rubbing_on(System& system, Rubbing& rubbing, const NewtonResult& solved,
                                const NewtonOptions& options, double scale,
                                const NewtonObserver& observer) {
-  return coupled(system, rubbing, solved, most_coupled_again, options, scale, observer);
+  return coupled(system, rubbing, solved, options, scale, observer);
 }
 
 }  // namespace bight::solid3d

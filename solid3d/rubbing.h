@@ -28,10 +28,10 @@ class Rubbing final : public FollowingForces {
   Vector frozen_at_;
 };
 
-/// Newton steps with the whole tangent, after a few with the last state's friction: the contact
-/// forces of a guess are too rough to begin with. Where they wander, as many of the first as it
-/// takes, and again. `options` is what a frictionless solve would
-/// take; tolerances and iterations are replaced by those of friction, relative to the force `scale`
+/// Newton steps with the whole tangent, full ones or else damped ones, after a few with the last
+/// state's friction: the contact forces of a guess are too rough to begin with. Where both fail, as
+/// many of the first as it takes, and again. `options` is what a frictionless solve would take;
+/// tolerances and iterations are replaced by those of friction, relative to the force `scale`
 /// [E D^2].
 NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& guess,
                             const NewtonOptions& options, double scale,

@@ -70,7 +70,8 @@ TEST_CASE("a force that follows the state is found with the whole tangent, quadr
   x[5] = 2.4, x[8] = 5;
   NewtonOptions options;
   options.energy_tolerance = 1e-20, options.force_tolerance = 1e-10, options.largest_move = 1;
-  const NewtonResult result = coupled_newton(system, follower, x, options);
+  const CoupledSteps steps = GENERATE(CoupledSteps::full, CoupledSteps::damped);
+  const NewtonResult result = coupled_newton(system, follower, x, options, steps);
   REQUIRE(result.ok());
   CHECK(result.iterations <= 7);  // dozens when the change of the force is left out
   // The force that the springs carry is k times the length, to round-off.
@@ -79,4 +80,48 @@ TEST_CASE("a force that follows the state is found with the whole tangent, quadr
   const Vector3 carried = pull(p) + pull(p - q);
   CHECK(carried.x() == Approx(3 * p.norm()).epsilon(1e-9));
   CHECK(std::abs(carried.z()) < 1e-9);
+}
+
+TEST_CASE("damped steps find a force whose full steps do not settle") {
+  // A point between two springs, pushed along by a force that saturates: full steps overshoot.
+  struct Saturating final : Effect, FollowingForces {
+    double force = 0, slope = 0;
+    std::vector<int> at{3, 4, 5};
+    std::string_view name() const override { return "saturating"; }
+    int stencils() const override { return 1; }
+    std::span<const int> coordinates(int) const override { return at; }
+    void element(const Vector& x, int, Order order, ElementSlot& slot) const override {
+      slot.energy = force * x[5];
+      if (order >= Order::gradient) slot.gradient[2] = force;
+    }
+    void freeze(const Vector& x) override {
+      const double z = 40 * (x[5] - 2.5);
+      force = 30 * std::atan(z), slope = 30 * 40 / (1 + z * z);
+    }
+    void add_change(const Vector& dx, Vector& gradient) const override {
+      gradient[5] += slope * dx[5];
+    }
+  };
+  EffectList effects;
+  effects.push_back(std::make_unique<test::Springs>(
+      std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
+  auto owned = std::make_unique<Saturating>();
+  Saturating& saturating = *owned;
+  effects.push_back(std::move(owned));
+  std::vector<bool> held(9, true);
+  for (int c = 3; c < 6; ++c) held[c] = false;
+  const Unknowns unknowns({0, 3, 6}, 9, held);
+  Assembler assembler(unknowns, effects);
+  SparseCholesky cholesky;
+  System system{assembler, cholesky, Ordering::natural,
+                [&](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }};
+  Vector x = Vector::Zero(9);
+  x[5] = 3, x[8] = 5;
+  NewtonOptions options;
+  options.energy_tolerance = 1e-16, options.force_tolerance = 1e-8, options.largest_move = 1;
+  options.bound.first_rise = 1e3;
+  CHECK_FALSE(coupled_newton(system, saturating, x, options, CoupledSteps::full).ok());
+  const NewtonResult damped = coupled_newton(system, saturating, x, options, CoupledSteps::damped);
+  REQUIRE(damped.ok());
+  CHECK(damped.x[5] == Approx(2.5));
 }
