@@ -16,8 +16,8 @@ constexpr int most_products = 12;
 constexpr double linear_tolerance = 1e-3;
 /// Decrements below this many tolerances are those of steps that need no search.
 constexpr double small_step = 100;
-/// Growth of the decrement over the first one that ends an attempt with full steps.
-constexpr double lost = 2;
+/// Growth of the residual over its least value that ends an attempt with full steps.
+constexpr double lost = 1e3;
 /// Times that a damped step is halved until the level falls, at most.
 constexpr int most_halvings = 2;
 
@@ -35,7 +35,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     result.x = std::move(x);
     return result;
   };
-  double first_decrement = 0;
+  double first_decrement = 0, least = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
     forces.freeze(x);
     result.energy = evaluate(system, x, Order::hessian, result.gradient);
@@ -46,6 +46,9 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (result.iterations > 0 && result.residual <= options.force_tolerance &&
         result.decrement <= options.energy_tolerance)
       return finish(NewtonStatus::converged, "");
+    if (!steps.damped && result.residual > lost * least)
+      return finish(NewtonStatus::stalled, "the residual grows");
+    least = std::min(least, result.residual);
     if (result.iterations >= options.max_iterations)
       return finish(NewtonStatus::too_many_iterations, "too many iterations");
 
@@ -63,7 +66,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");
     result.decrement = std::abs(g.dot(step));
     if (result.iterations == 0) first_decrement = result.decrement;
-    if (steps == CoupledSteps::full && result.decrement > lost * first_decrement)
+    if (result.decrement > steps.most_growth * first_decrement)
       return finish(NewtonStatus::stalled, "the steps grow");
 
     const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
@@ -83,7 +86,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
       return trial;
     };
     double fraction = 0;
-    if (steps == CoupledSteps::full) {
+    if (!steps.damped) {
       const auto energy_at = [&](double part) {
         const Vector trial = at(part);
         assembler.refresh(trial);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "mechanics/newton.h"
 
 namespace bight {
@@ -15,7 +17,12 @@ class FollowingForces {
   virtual void add_change(const Vector& dx, Vector& gradient) const = 0;
 };
 
-enum class CoupledSteps { full, damped };
+/// How far the steps of coupled_newton() go.
+struct CoupledSteps {
+  bool damped = false;
+  /// Growth of the decrement over the first one that ends an attempt: full steps that wander.
+  double most_growth = std::numeric_limits<double>::infinity();
+};
 
 /// Solves for equilibrium with following forces, from x near it: Newton's method with the whole,
 /// unsymmetric tangent H + F, where H is the frozen energy's Hessian and F the change of the
@@ -35,7 +42,7 @@ enum class CoupledSteps { full, damped };
 ///
 /// From a poor start either fails, and minimisations at frozen forces have to be taken instead.
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
-                            const NewtonOptions& options, CoupledSteps steps = CoupledSteps::full,
+                            const NewtonOptions& options, CoupledSteps steps = {},
                             const NewtonObserver& observer = {});
 
 }  // namespace bight

@@ -7,6 +7,8 @@ namespace {
 /// Iterations with the last state's friction, which bring contact forces into range; with the whole
 /// tangent, at most: mostly they are 4.
 constexpr int few_first = 3, most_full = 15, most_damped = 30;
+/// Of full steps that settle.
+constexpr double most_growth = 2;
 /// Relative to the force scale. The energy of the last step is the square of what it leaves.
 constexpr double first_tolerance = 1e-2, energy_tolerance = 5e-7, force_tolerance = 1e-5;
 
@@ -21,8 +23,9 @@ NewtonOptions within(NewtonOptions options, int iterations, double energy, doubl
 NewtonResult coupled(System& system, Rubbing& rubbing, const NewtonResult& begun,
                      const NewtonOptions& options, double scale, const NewtonObserver& observer) {
   NewtonResult result = begun;
-  for (const CoupledSteps steps : {CoupledSteps::full, CoupledSteps::damped}) {
-    const int most = steps == CoupledSteps::full ? most_full : most_damped;
+  for (const bool damped : {false, true}) {
+    const CoupledSteps steps = damped ? CoupledSteps{true} : CoupledSteps{false, most_growth};
+    const int most = damped ? most_damped : most_full;
     NewtonResult next = coupled_newton(
         system, rubbing, begun.x,
         within(options, most, energy_tolerance * scale, force_tolerance * scale), steps, observer);

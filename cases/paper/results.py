@@ -258,8 +258,7 @@ machine did.
   `--set solid3d.section_elements=108` is. What the section costs in accuracy is in the README, "Accuracy against time".
 - The rod of the tight knots is far above the solid. It is what a rod of round, unyielding sections does: the
   comparison says where it ends to be valid.
-- The figure-eight with friction ends where the table does: the solid's steps become short, the rod's friction does not
-  settle.
+- The rod with friction ends where the tables do: in a knot that tight its friction does not settle.
 - The short rod of the curvature figure has room for 2 D of tightening with friction.
 """)
     print(PAGE)
