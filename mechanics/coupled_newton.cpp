@@ -21,6 +21,19 @@ constexpr double lost = 1e3;
 /// Times that a damped step is halved until the level falls, at most.
 constexpr int most_halvings = 2;
 
+/// The first fraction, halved from the longest one, that lowers the level as it should, or else the
+/// one of least level; 0 where none is admissible.
+template <class LevelAt>
+double damped_fraction(double longest, double level, LevelAt&& level_at) {
+  double best = 0, least = inadmissible, part = longest;
+  for (int halvings = 0; halvings <= most_halvings; ++halvings, part *= 0.5) {
+    const double there = level_at(part), falls = 1 - 0.25 * part;
+    if (there < least) best = part, least = there;
+    if (there <= falls * falls * level) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
@@ -34,6 +47,19 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     result.reason = std::move(reason);
     result.x = std::move(x);
     return result;
+  };
+  // The frozen energy is what keeps a wild full step in bounds; near the solution it may rise.
+  const auto energy_at = [&](const Vector& trial) {
+    assembler.refresh(trial);
+    const double energy = assembler.energy(trial);
+    return std::isfinite(energy) ? energy : inadmissible;
+  };
+  const auto level_at = [&](const Vector& trial) {
+    Vector gradient;
+    forces.freeze(trial);
+    if (!std::isfinite(evaluate(system, trial, Order::gradient, gradient))) return inadmissible;
+    const Vector r = unknowns.reduce(trial, gradient);
+    return r.allFinite() ? r.dot(system.cholesky.solve(r)) : inadmissible;
   };
   double first_decrement = 0, least = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
@@ -85,33 +111,12 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
       system.advance(trial, fraction * dx);
       return trial;
     };
-    double fraction = 0;
-    if (!steps.damped) {
-      const auto energy_at = [&](double part) {
-        const Vector trial = at(part);
-        assembler.refresh(trial);
-        const double energy = assembler.energy(trial);
-        return std::isfinite(energy) ? energy : inadmissible;
-      };
-      // The frozen energy is what keeps a wild step in bounds; near the solution it may rise.
-      const double rise = options.bound.allowed(result.iterations) + 2 * result.decrement;
-      fraction = search(energy_at, result.energy, rise, longest).step;
-    } else {
-      const auto level_at = [&](double part) {
-        const Vector trial = at(part);
-        Vector gradient;
-        forces.freeze(trial);
-        if (!std::isfinite(evaluate(system, trial, Order::gradient, gradient))) return inadmissible;
-        const Vector r = unknowns.reduce(trial, gradient);
-        return r.allFinite() ? r.dot(system.cholesky.solve(r)) : inadmissible;
-      };
-      double part = longest, least = inadmissible;
-      for (int halvings = 0; halvings <= most_halvings; ++halvings, part *= 0.5) {
-        const double there = level_at(part), falls = 1 - 0.25 * part;
-        if (there < least) fraction = part, least = there;
-        if (there <= falls * falls * level) break;
-      }
-    }
+    const double fraction =
+        steps.damped
+            ? damped_fraction(longest, level, [&](double part) { return level_at(at(part)); })
+            : search([&](double part) { return energy_at(at(part)); }, result.energy,
+                     options.bound.allowed(result.iterations) + 2 * result.decrement, longest)
+                  .step;
     tell(fraction);
     if (fraction == 0) return finish(NewtonStatus::stalled, "no step is admissible");
     x = at(fraction);

@@ -10,6 +10,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "mechanics/sdirk.h"
+
 namespace bight {
 
 namespace {
@@ -22,18 +24,6 @@ constexpr int newton_iterations = 8;
 constexpr double first_step = 0.1;
 /// Failures of one step before it is given up.
 constexpr int most_failures = 30;
-
-/// Alexander's SDIRK of three stages; the error estimate leaves out the last one.
-ARKodeButcherTable sdirk() {
-  const double g = 0.43586652150845899942, half = 0.5 * (1 - g);
-  const double b1 = -0.25 * (6 * g * g - 16 * g + 1), b2 = 0.25 * (6 * g * g - 20 * g + 5);
-  double c[] = {g, 0.5 * (1 + g), 1};
-  double A[] = {g, 0, 0, half, g, 0, b1, b2, g};
-  double b[] = {b1, b2, g};
-  const double d2 = (0.5 - g) / half;
-  double d[] = {1 - d2, d2, 0};
-  return ARKodeButcherTable_Create(3, 3, 2, c, A, b, d);
-}
 
 /// ARKODE's return values: try a shorter step, or give up.
 constexpr int fine = 0, shorter = 1;
@@ -208,21 +198,30 @@ struct Dynamics::Package {
     return fine;
   }
 
-  static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector b, sunrealtype) {
-    Package& my = *static_cast<Package*>(solver->content);
+  /// What ARKODE says of the stage that it wants solved.
+  struct StageData {
     sunrealtype t = 0, gamma = 0;
     N_Vector predicted, current, rate, constant;
+  };
+  StageData stage_data() const {
+    StageData at;
     void* unused;
-    ARKStepGetNonlinearSystemData(my.arkode, &t, &predicted, &current, &rate, &gamma, &constant,
-                                  &unused);
-    if (!my.factor(t, mapped(current), gamma)) return SUNLS_LUFACT_FAIL;
+    ARKStepGetNonlinearSystemData(arkode, &at.t, &at.predicted, &at.current, &at.rate, &at.gamma,
+                                  &at.constant, &unused);
+    return at;
+  }
+
+  static int solve(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector b, sunrealtype) {
+    Package& my = *static_cast<Package*>(solver->content);
+    const StageData at = my.stage_data();
+    if (!my.factor(at.t, mapped(at.current), at.gamma)) return SUNLS_LUFACT_FAIL;
     const auto right = mapped(b);
     const Vector b_x = right.head(my.n);
-    Vector r = my.mass.cwiseProduct(right.tail(my.n)) - gamma * my.stiffness_times(b_x);
+    Vector r = my.mass.cwiseProduct(right.tail(my.n)) - at.gamma * my.stiffness_times(b_x);
     const Vector dv = my.cholesky.solve(r);
     auto out = mapped(z);
     out.tail(my.n) = dv;
-    out.head(my.n) = b_x + gamma * dv;
+    out.head(my.n) = b_x + at.gamma * dv;
     return dv.allFinite() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
   }
 
@@ -230,25 +229,22 @@ struct Dynamics::Package {
   static int minimise(SUNNonlinearSolver solver, N_Vector, N_Vector correction, N_Vector,
                       sunrealtype, booleantype, void*) {
     Package& my = *static_cast<Package*>(solver->content);
-    sunrealtype t = 0, gamma = 0;
-    N_Vector predicted, current, rate, constant;
-    void* unused;
-    ARKStepGetNonlinearSystemData(my.arkode, &t, &predicted, &current, &rate, &gamma, &constant,
-                                  &unused);
-    const Vector a = mapped(predicted) + mapped(constant);
-    const double drag = 1 + gamma * my.body.damping;
-    Stage stage{t, drag / (gamma * gamma), my.x, my.solved.x, (t - my.solved.time) * my.solved.v};
-    my.put(a.head(my.n) + gamma / drag * a.tail(my.n), stage.target);
+    const StageData at = my.stage_data();
+    const Vector a = mapped(at.predicted) + mapped(at.constant);
+    const double drag = 1 + at.gamma * my.body.damping;
+    Stage stage{at.t, drag / (at.gamma * at.gamma), my.x, my.solved.x,
+                (at.t - my.solved.time) * my.solved.v};
+    my.put(a.head(my.n) + at.gamma / drag * a.tail(my.n), stage.target);
     my.measured = false;
     const std::optional<Vector> found = my.body.minimise(stage);
     if (!found) return SUN_NLS_CONV_RECVR;
     Vector z(2 * my.n);
     z.head(my.n) = my.taken(*found);
-    z.tail(my.n) = (z.head(my.n) - a.head(my.n)) / gamma;
-    my.solved = {t, *found, my.v};
+    z.tail(my.n) = (z.head(my.n) - a.head(my.n)) / at.gamma;
+    my.solved = {at.t, *found, my.v};
     my.put(z.tail(my.n), my.solved.v);
-    my.place(t, my.solved.x, my.solved.v);
-    mapped(correction) = z - mapped(predicted);
+    my.place(at.t, my.solved.x, my.solved.v);
+    mapped(correction) = z - mapped(at.predicted);
     return SUN_NLS_SUCCESS;
   }
 

@@ -134,7 +134,8 @@ std::optional<Vector2> ContactSurface::project(const Vector& x, const Vector3& p
     const Vector3 d = point - p.y;
     const Vector2 slope(p.y_u.dot(d), p.y_v.dot(d));
     const double muu = p.y_u.squaredNorm(), muv = p.y_u.dot(p.y_v), mvv = p.y_v.squaredNorm();
-    double a = muu - d.dot(p.y_uu), b = muv - d.dot(p.y_uv), c = mvv - d.dot(p.y_vv);
+    const Eigen::Matrix2d M = projection_matrix(p, d);
+    double a = M(0, 0), b = M(0, 1), c = M(1, 1);
     // Far from the nearest point the exact curvature may be indefinite: Gauss-Newton there, and
     // half of its step where patches of different curvature pass the ball back and forth.
     if (!(a > 0 && a * c - b * b > 0.05 * muu * mvv)) a = muu, b = muv, c = mvv;

@@ -46,6 +46,18 @@ inline GaussPoint gauss_point(int degree, int i) {
   return {(i - 1) * std::sqrt(0.6), i == 1 ? 8.0 / 9 : 5.0 / 9};
 }
 
+/// Place in the cube [-1, 1]^3 and weight of a cell's Gauss point q < (degree + 1)^3.
+struct CellPoint {
+  Vector3 xi;
+  double weight;
+};
+inline CellPoint cell_point(int degree, int q) {
+  const int n = degree + 1;
+  const GaussPoint a = gauss_point(degree, q % n), b = gauss_point(degree, q / n % n),
+                   c = gauss_point(degree, q / (n * n));
+  return {{a.t, b.t, c.t}, a.weight * b.weight * c.weight};
+}
+
 /// The modes at the points of a cell, by Gram and Schmidt from {1, X}.
 template <int degree>
 void set_modes(const std::array<Vector3, hex_nodes<degree>>& X, HexReference<degree>& reference) {
@@ -71,15 +83,12 @@ HexReference<degree> hex_reference(const HexNodes<degree>& X,
                                    Quadrature quadrature = Quadrature::gauss) {
   HexReference<degree> reference;
   std::array<Vector3, hex_nodes<degree>> at;
-  constexpr int n = degree + 1;
   for (int q = 0; q < reference.points; ++q) {
-    const std::array<GaussPoint, 3> g = {gauss_point(degree, q % n), gauss_point(degree, q / n % n),
-                                         gauss_point(degree, q / (n * n))};
-    const Vector3 xi(g[0].t, g[1].t, g[2].t);
+    const auto [xi, weight] = cell_point(degree, q);
     const auto parent = parent_gradients<degree>(xi);
     const Matrix3 dX = X * parent.transpose();
     reference.gradient[q] = dX.inverse().transpose() * parent;
-    reference.weight[q] = g[0].weight * g[1].weight * g[2].weight * dX.determinant();
+    reference.weight[q] = weight * dX.determinant();
     reference.volume += reference.weight[q];
     at[q] = X * parent_values<degree>(xi);
   }

@@ -39,9 +39,7 @@ Skin make_skin(const ContactSurface& surface, const Vector& x, double inward) {
       for (int i = 0; i < around; ++i) {
         const double u = static_cast<double>(i) * sides / around;
         const double v = k - 0.5 + static_cast<double>(j) / per_layer;
-        // On the seam of two patches either has the point.
-        PatchWeights at = surface.weights(u, j == per_layer ? v - 1e-9 : v + 1e-9);
-        const SurfacePoint p = surface.evaluate(x, at);
+        const SurfacePoint p = surface.evaluate(x, surface.weights(u, v));
         const Vector3 y = p.y + (surface.skin(k) - inward) * p.normal;
         skin.points.emplace_back(y.x(), y.y(), y.z());
       }

@@ -8,11 +8,8 @@ namespace bight::solid3d {
 template <int degree>
 void add_lumped_mass(const HexMesh& mesh, const HexCell& cell, Vector& mass) {
   const auto reference = hex_reference<degree>(cell_nodes<degree>(mesh, cell));
-  constexpr int n = degree + 1;
   for (int q = 0; q < reference.points; ++q) {
-    const Vector3 xi(gauss_point(degree, q % n).t, gauss_point(degree, q / n % n).t,
-                     gauss_point(degree, q / (n * n)).t);
-    const auto N = parent_values<degree>(xi);
+    const auto N = parent_values<degree>(cell_point(degree, q).xi);
     for (int a = 0; a < hex_nodes<degree>; ++a)
       mass.segment<3>(3 * cell[static_cast<size_t>(a)]).array() +=
           reference.weight[static_cast<size_t>(q)] * N[a];

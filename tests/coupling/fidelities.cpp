@@ -4,54 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "coupling/sweep.h"
-#include "rod1d/overhand.h"
-#include "rod1d/run_rod.h"
 #include "solid3d/effects/strain.h"
-#include "solid3d/run_solid.h"
 #include "solid3d/transfer.h"
+#include "tests/coupling/tight_knot.h"
 
 using namespace bight;
 using namespace bight::coupling;
-
-namespace {
-
-constexpr double length = 350 / 8.3, seed_ebar = 20;
-constexpr double tight_bound = 0.002;  ///< of the overlap: makes contact stiffen on the way [D]
-
-rod1d::RodState rod_at(double ebar, double of_length = length) {
-  rod1d::RodParameters parameters;
-  parameters.length = of_length;
-  if (of_length == length) parameters.start = rod1d::overhand_start(length, 30, 340);
-  parameters.path.waypoints = {of_length == length ? 30 : ebar, ebar};
-  parameters.path.record = {ebar};
-  return rod1d::run_rod(parameters).states.at(0);
-}
-
-const rod1d::RodState& seed() {
-  static const rod1d::RodState state = rod_at(seed_ebar);
-  return state;
-}
-
-solid3d::SolidResult tighten(double to, std::vector<solid3d::SolidState>* states = nullptr,
-                             bool symmetry = true, double friction = 0, int cells = 12,
-                             int degree = 1) {
-  const solid3d::Mesh mesh =
-      swept_mesh({.section_elements = cells, .degree = degree, .axial_ratio = 1.0}, seed());
-  solid3d::SolidParameters parameters;
-  parameters.element = degree == 1 ? "three-field" : "quadratic";
-  parameters.expected_tension = seed().tension;
-  parameters.path.waypoints = {seed_ebar, to};
-  parameters.path.record = {seed_ebar, to};
-  parameters.symmetry = symmetry;
-  parameters.penetration = tight_bound;
-  parameters.friction = friction;
-  solid3d::SolidObserver observer;
-  if (states) observer.on_record = [=](const auto& state) { states->push_back(state); };
-  return solid3d::run_solid(mesh, sweep(mesh, seed()), seed_ebar, parameters, observer);
-}
-
-}  // namespace
+using namespace bight::test;
 
 TEST_CASE("a sweep along a straight rod is the reference mesh") {
   rod1d::RodState rod;
@@ -233,49 +192,6 @@ TEST_CASE("half of a symmetric knot and its image are the whole knot") {
     for (const char* effect : {"strain", "contact"})
       CHECK(half_states[i].energy_by_effect.at(effect) ==
             Approx(whole_states[i].energy_by_effect.at(effect)).epsilon(1e-3));
-}
-
-TEST_CASE("a knot of quadratic cells is tightened, and found again on finer ones") {
-  std::vector<solid3d::SolidState> states;
-  const auto half = tighten(19.5, &states, true, 0, 5, 2);
-  REQUIRE(half.outcome.status == PathStatus::finished);
-  REQUIRE(half.symmetric);
-  const StepRow& row = half.steps.back();
-  CHECK(row.reaction_mismatch < 1e-6);
-  CHECK(row.residual < 1e-6);
-  for (const auto& state : states) CHECK(state.determinant == 3);
-
-  const SweepOptions five{.section_elements = 5, .degree = 2, .axial_ratio = 1.0};
-  SweepOptions twelve = five;
-  twelve.section_elements = 12;
-  const solid3d::Mesh coarse = swept_mesh(five, seed()), fine = swept_mesh(twelve, seed());
-  solid3d::SolidParameters parameters;
-  parameters.element = "quadratic";
-  parameters.expected_tension = row.tension;
-  parameters.penetration = tight_bound;
-  parameters.path.waypoints = {19.5};
-  const auto found = solid3d::run_solid(
-      fine, solid3d::transferred(coarse, states.back().nodes, fine), 19.5, parameters);
-  REQUIRE(found.outcome.status == PathStatus::finished);
-  CHECK(found.symmetric);
-  CHECK(found.outcome.iterations <= 20);
-  CHECK(found.steps[0].tension == Approx(row.tension).epsilon(0.03));
-}
-
-TEST_CASE(
-    "quadratic cells: half a knot is the whole, as tight as of linear cells, held by friction",
-    "[.long][long]") {
-  const auto half = tighten(19, nullptr, true, 0, 5, 2);
-  const auto whole = tighten(19, nullptr, false, 0, 5, 2);
-  const auto rough = tighten(19, nullptr, true, 0.1, 5, 2);
-  const auto linear = tighten(19, nullptr, true, 0, 32);
-  for (const auto* result : {&half, &whole, &rough, &linear})
-    REQUIRE(result->outcome.status == PathStatus::finished);
-  const double tension = half.steps.back().tension;
-  CHECK(tension == Approx(whole.steps.back().tension).epsilon(1e-3));
-  CHECK(tension == Approx(linear.steps.back().tension).epsilon(0.03));
-  CHECK(rough.steps.back().tension > 1.2 * tension);
-  CHECK(rough.steps.back().dissipated > 0);
 }
 
 TEST_CASE("friction of the solid holds the knot, and work goes into energy and dissipation") {

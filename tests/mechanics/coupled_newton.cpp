@@ -49,29 +49,37 @@ struct Follower final : Effect, FollowingForces {
   Vector3 direction = Vector3::UnitZ();
 };
 
+/// A point between two springs of length 1, 5 apart along z, with a force on it besides.
+template <class Force>
+struct BetweenSprings {
+  EffectList effects;
+  Force& force;
+  Unknowns unknowns{{0, 3, 6}, 9, {true, true, true, false, false, false, true, true, true}};
+  Assembler assembler{unknowns, effects};
+  SparseCholesky cholesky;
+  System system{assembler, cholesky, Ordering::natural,
+                [this](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }};
+
+  explicit BetweenSprings(std::unique_ptr<Force> owned) : force(*owned) {
+    effects.push_back(std::make_unique<test::Springs>(
+        std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
+    effects.push_back(std::move(owned));
+  }
+  NewtonResult solve(double z, const NewtonOptions& options, bool damped) {
+    Vector x = Vector::Zero(9);
+    x[5] = z, x[8] = 5;
+    return coupled_newton(system, force, x, options, {damped});
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a force that follows the state is found with the whole tangent, quadratically") {
-  // A point between two springs, pulled across by k times its distance from the first end.
-  EffectList effects;
-  effects.push_back(std::make_unique<test::Springs>(
-      std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
-  auto owned = std::make_unique<Follower>(3, 1);
-  Follower& follower = *owned;
-  effects.push_back(std::move(owned));
-  std::vector<bool> held(9, true);
-  for (int c = 3; c < 6; ++c) held[c] = false;
-  const Unknowns unknowns({0, 3, 6}, 9, held);
-  Assembler assembler(unknowns, effects);
-  SparseCholesky cholesky;
-  System system{assembler, cholesky, Ordering::natural,
-                [&](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }};
-  Vector x = Vector::Zero(9);
-  x[5] = 2.4, x[8] = 5;
+  // The point is pulled across by k times its distance from the first end.
+  BetweenSprings problem(std::make_unique<Follower>(3, 1));
   NewtonOptions options;
   options.energy_tolerance = 1e-20, options.force_tolerance = 1e-10, options.largest_move = 1;
-  const CoupledSteps steps{GENERATE(false, true)};
-  const NewtonResult result = coupled_newton(system, follower, x, options, steps);
+  const NewtonResult result = problem.solve(2.4, options, GENERATE(false, true));
   REQUIRE(result.ok());
   CHECK(result.iterations <= 7);  // dozens when the change of the force is left out
   // The force that the springs carry is k times the length, to round-off.
@@ -83,7 +91,7 @@ TEST_CASE("a force that follows the state is found with the whole tangent, quadr
 }
 
 TEST_CASE("damped steps find a force whose full steps do not settle") {
-  // A point between two springs, pushed along by a force that saturates: full steps overshoot.
+  // The point is pushed along by a force that saturates: full steps overshoot.
   struct Saturating final : Effect, FollowingForces {
     double force = 0, slope = 0;
     std::vector<int> at{3, 4, 5};
@@ -102,26 +110,12 @@ TEST_CASE("damped steps find a force whose full steps do not settle") {
       gradient[5] += slope * dx[5];
     }
   };
-  EffectList effects;
-  effects.push_back(std::make_unique<test::Springs>(
-      std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
-  auto owned = std::make_unique<Saturating>();
-  Saturating& saturating = *owned;
-  effects.push_back(std::move(owned));
-  std::vector<bool> held(9, true);
-  for (int c = 3; c < 6; ++c) held[c] = false;
-  const Unknowns unknowns({0, 3, 6}, 9, held);
-  Assembler assembler(unknowns, effects);
-  SparseCholesky cholesky;
-  System system{assembler, cholesky, Ordering::natural,
-                [&](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }};
-  Vector x = Vector::Zero(9);
-  x[5] = 3, x[8] = 5;
+  BetweenSprings problem(std::make_unique<Saturating>());
   NewtonOptions options;
   options.energy_tolerance = 1e-16, options.force_tolerance = 1e-8, options.largest_move = 1;
   options.bound.first_rise = 1e3;
-  CHECK_FALSE(coupled_newton(system, saturating, x, options, {false}).ok());
-  const NewtonResult damped = coupled_newton(system, saturating, x, options, {true});
+  CHECK_FALSE(problem.solve(3, options, false).ok());
+  const NewtonResult damped = problem.solve(3, options, true);
   REQUIRE(damped.ok());
   CHECK(damped.x[5] == Approx(2.5));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "rod1d/rod_problem.h"
+#include "tests/crossing.h"
 
 using namespace bight;
 using namespace bight::rod1d;
@@ -68,15 +69,7 @@ Vibration vibration(int segments, double alpha, double tolerance) {
     const double t = motion->time(), q = projection(motion->x()),
                  v = projection(motion->dynamics().v());
     if (q0 > 0 && q <= 0) {
-      // Cubic through both states and speeds.
-      const double h = t - t0;
-      double low = 0, high = 1;
-      for (int k = 0; k < 60; ++k) {
-        const double u = 0.5 * (low + high), w = 1 - u;
-        const double value =
-            w * w * (1 + 2 * u) * q0 + u * u * (3 - 2 * u) * q + u * w * h * (w * v0 - u * v);
-        (value > 0 ? low : high) = u;
-      }
+      const double h = t - t0, low = test::crossing(q0, v0, q, v, h);
       zeros.push_back({t0 + low * h, v0 + low * (v - v0)});
     }
     t0 = t, q0 = q, v0 = v;

@@ -4,6 +4,7 @@
 #include "solid3d/effects/gravity.h"
 #include "solid3d/solid_motion.h"
 #include "solid3d/solid_problem.h"
+#include "tests/crossing.h"
 #include "tests/derivatives.h"
 
 using namespace bight;
@@ -82,15 +83,7 @@ Vibration vibration(Bar& bar, Mode&& mode, double alpha, double tolerance) {
     const double t = motion->time(), q = weight.dot(motion->x() - rest),
                  v = weight.dot(motion->v());
     if (q0 < 0 && q >= 0) {
-      // Cubic through both states and speeds.
-      const double h = t - t0;
-      double low = 0, high = 1;
-      for (int k = 0; k < 60; ++k) {
-        const double u = 0.5 * (low + high), w = 1 - u;
-        const double value =
-            w * w * (1 + 2 * u) * q0 + u * u * (3 - 2 * u) * q + u * w * h * (w * v0 - u * v);
-        (value < 0 ? low : high) = u;
-      }
+      const double h = t - t0, low = test::crossing(q0, v0, q, v, h);
       const double period = t0 + low * h, v_end = v0 + low * (v - v0);
       return {2 * M_PI / period, std::log(v_begin / v_end) / period,
               (before - motion->energy() - motion->dissipated()) / before};
