@@ -46,13 +46,9 @@ void RodModel::set_arc(const std::vector<double>& arc) {
   halve();
 }
 
-/// Of a symmetric rod, half the stencils are summed; friction takes half the contact points.
+/// Friction takes half the contact points of a symmetric rod.
 void RodModel::halve() {
-  halves_.clear();
-  if (!symmetry_) return;
-  for (const auto& effect : effects_.list)
-    halves_.push_back(
-        std::make_unique<HalfEffect>(*effect, *symmetry_, effect.get() == effects_.friction));
+  halves_ = symmetry_ ? symmetry_->halves(effects_.list, effects_.friction) : EffectList();
 }
 
 /// A state on other nodes, its ends held as its ebar says, and what its twist counts from there.

@@ -20,8 +20,7 @@ constexpr int half_segments = 90;
 /// Overlap at which contact balances the forces of a loop, and overlap that ends the tying [D].
 constexpr double soft_overlap = 0.02, largest_overlap = 0.2;
 
-/// Overhand: a loop is bent and crossed, the ends go through it from either side. The image is a
-/// half-turn about x, as the knot has one.
+/// Overhand: a loop is bent and crossed, the ends go through it from either side.
 std::vector<TieMove> tie_overhand() {
   const Polyline crossed{{-6, 0.6, 2}};
   return {{"bend", 3, {-19, 0, 30.3}, {-0.5, 0, 0.87}, {{-2, 0, 7.6}}},
@@ -38,7 +37,7 @@ std::vector<TieMove> tie_overhand() {
 }
 
 /// Figure-eight: the rod is bent to an S, each end goes through the loop of the other half. The
-/// image is an inversion: the knot is its own mirror image.
+/// knot is its own mirror image.
 std::vector<TieMove> tie_figure_eight() {
   const Polyline bent{{0, 0, 4.9}, {5.6, 0, 7.7}};
   return {{"bend", 6, {20.5, 0, 23}, {0.87, 0, 0.5}, {{0, 0, 4.9}, {3.1, 0, 12.9}}},
@@ -66,9 +65,10 @@ class TiedRod {
  public:
   TiedRod(const TieProtocol& protocol, double length)
       : scale_(length / protocol.length),
-        image_(protocol.image),
+        symmetry_(protocol.symmetry, 2 * half_segments),
         rod_(uniform_rod(length, 2 * half_segments, 0.5)),
         effects_(make_effects(rod_, RodParameters{}, no_frames_)),
+        halves_(symmetry_.halves(effects_.list)),
         x_(3 * rod_.nodes()),
         force_(rod_.bending_stiffness / (4 * scale_ * scale_)) {
     for (const double arc : protocol.auxiliary)
@@ -117,8 +117,9 @@ class TiedRod {
     Assembler assembler;
     SparseCholesky cholesky;
     System system;
-    Equations(const std::vector<int>& blocks, const std::vector<bool>& held, const EffectList& list)
-        : unknowns(blocks, static_cast<int>(held.size()), held),
+    Equations(const std::vector<int>& blocks, const std::vector<bool>& held,
+              const std::vector<Image>& images, const EffectList& list)
+        : unknowns(blocks, static_cast<int>(held.size()), held, {}, images),
           assembler(unknowns, list),
           system{assembler, cholesky, Ordering::minimum_degree,
                  [this](Vector& x, const Vector& dx) { unknowns.advance(x, dx); }} {}
@@ -126,8 +127,8 @@ class TiedRod {
 
   /// The k-th node from the middle on the finish half, and its image.
   void place(int k, const Vector3& at) {
-    x_.segment<3>(Rod::position(half_segments - k)) = image_.cwiseProduct(at);
     x_.segment<3>(Rod::position(half_segments + k)) = at;
+    x_.segment<3>(Rod::position(half_segments - k)) = symmetry_.image(at);
   }
   void set_equations(size_t auxiliary_held) {
     held_ = auxiliary_held;
@@ -140,15 +141,17 @@ class TiedRod {
     for (size_t i = 0; i < auxiliary_held; ++i) hold(auxiliary_[i]);
     std::vector<int> blocks;
     for (int i = 0; i < rod_.nodes(); ++i) blocks.push_back(Rod::position(i));
-    equations_ = std::make_unique<Equations>(blocks, held, effects_.list);
+    symmetry_.hold_middle(held);
+    equations_ = std::make_unique<Equations>(blocks, held, symmetry_.images(false), halves_);
   }
 
   double scale_;
-  Vector3 image_;
+  TwoFold symmetry_;
   std::vector<int> auxiliary_;  ///< nodes, counted from the middle
   Rod rod_;
   Frames no_frames_;
   RodEffects effects_;
+  EffectList halves_;  ///< the same, summed over one half and its image
   Vector x_;
   double force_;     ///< in a loop of the protocol's size [E D^2]
   size_t held_ = 0;  ///< auxiliary points
@@ -163,8 +166,8 @@ double TieProtocol::shortening() const {
 
 const TieProtocol& tie_protocol(std::string_view knot) {
   static const std::vector<TieProtocol> protocols = {
-      {"overhand", 70, {1, -1, -1}, {8}, tie_overhand()},
-      {"figure-eight", 70, {-1, -1, -1}, {5, 14}, tie_figure_eight()},
+      {"overhand", 70, TwoFold::Kind::half_turn, {8}, tie_overhand()},
+      {"figure-eight", 70, TwoFold::Kind::inversion, {5, 14}, tie_figure_eight()},
   };
   for (const TieProtocol& protocol : protocols)
     if (protocol.knot == knot) return protocol;

@@ -6,6 +6,7 @@
 
 #include "rod1d/polyline.h"
 #include "rod1d/run_rod.h"
+#include "rod1d/two_fold.h"
 
 namespace bight::rod1d {
 
@@ -22,11 +23,11 @@ struct TieMove {
 /// How a straight rod is tied: the protocol of Baek et al. (2021), Fig. 3, after Durville (2012).
 /// The rod is bent while auxiliary points are held (bend), its ends are led through its loops
 /// (thread), the auxiliary points are let go (release). What the finish half does the start half
-/// does as its image.
+/// does as its image: one half is simulated.
 struct TieProtocol {
   std::string_view knot;
   double length;                  ///< of the rod, in the unit of the moves
-  Vector3 image;                  ///< signs of x, y, z
+  TwoFold::Kind symmetry;         ///< with the axis of a half turn along x
   std::vector<double> auxiliary;  ///< arc lengths from the middle to the auxiliary points
   std::vector<TieMove> moves;     ///< from the straight rod along z on, its middle at 0
 

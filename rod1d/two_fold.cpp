@@ -112,6 +112,13 @@ int TwoFold::weight(std::span<const int> coordinates) const {
   return side < 0 ? 2 : side == 0 ? 1 : 0;
 }
 
+EffectList TwoFold::halves(const EffectList& whole, const Effect* halved) const {
+  EffectList list;
+  for (const auto& effect : whole)
+    list.push_back(std::make_unique<HalfEffect>(*effect, *this, effect.get() == halved));
+  return list;
+}
+
 std::vector<ContactPoint> TwoFold::halved(std::vector<ContactPoint> points, double length) const {
   std::erase_if(points,
                 [&](const ContactPoint& at) { return at.s_a + at.s_b > (1 + same_arc) * length; });

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "mechanics/assemble.h"
 #include "mechanics/effect.h"
 #include "mechanics/unknowns.h"
 #include "rod1d/effects/contact.h"
@@ -36,6 +37,7 @@ class TwoFold {
 
   Kind kind() const { return kind_; }
 
+  Vector3 image(const Vector3& point) const { return signs().cwiseProduct(point); }
   /// Coordinates of the second half are images of the first; the middle node stays where it is its
   /// own image.
   std::vector<Image> images(bool twist) const;
@@ -53,6 +55,9 @@ class TwoFold {
   /// How often a stencil counts in a sum over one half and its image: twice in the first half, once
   /// where it is its own image, not at all in the second half.
   int weight(std::span<const int> coordinates) const;
+  /// Effects of the whole rod, summed over one half and its image. Stencils of the effect `halved`
+  /// are those of one half already.
+  EffectList halves(const EffectList& whole, const Effect* halved = nullptr) const;
   /// Contact points of the whole rod as points of one half that count for their images too.
   std::vector<ContactPoint> halved(std::vector<ContactPoint> points, double length) const;
 
