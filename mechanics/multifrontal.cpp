@@ -30,7 +30,7 @@ namespace bight {
 namespace {
 
 /// Columns that a panel eliminates at a time; tiles of products and of triangular solves.
-constexpr int block = 32, tile = 96, tall_tile = 256;
+constexpr int block = 32, tile = 96, tall_tile = 256, solve_tile = 512;
 /// Share of all flops that a subtree may have to be factored by one thread.
 constexpr double subtree_share = 0.1;
 /// Tiles of a front are shared by the threads from this many flops on.
@@ -293,44 +293,74 @@ bool Multifrontal::factor(const SymmetricMatrix& matrix, double shift) {
   return positive;
 }
 
+/// y <- L^-1 y for the columns of a supernode, from the `part` of its children: what their columns
+/// take from the rows below.
+void Multifrontal::substitute_forward(int s, Vector& y, double* part, bool parallel) const {
+  const int height = rows(s), width = columns(s), below = height - width;
+  const double* panel = L_.data() + panel_[s];
+  double* own = y.data() + nodes_.first_column[s];
+  double* rest = part + part_begin(s);
+  std::fill(rest, rest + below, 0.0);
+  for (const int child : children_[s]) {
+    const double* from = part + part_begin(child);
+    for (std::int64_t r = run_begin_[child]; r < run_begin_[child + 1]; ++r)
+      for (int k = 0; k < runs_[r].length; ++k) {
+        const int to = runs_[r].to + k;
+        if (to < width)
+          own[to] -= from[runs_[r].from + k];
+        else
+          rest[to - width] += from[runs_[r].from + k];
+      }
+  }
+  dtrsv_("L", "N", "N", &width, panel, &height, own, &unit_stride);
+  for_each((below + solve_tile - 1) / solve_tile, parallel, [&](int t) {
+    const int first = t * solve_tile, count = std::min(solve_tile, below - first);
+    dgemv_("N", &count, &width, &one, panel + width + first, &height, own, &unit_stride, &one,
+           rest + first, &unit_stride);
+  });
+}
+
+/// y <- L^-T y for the columns of a supernode.
+void Multifrontal::substitute_backward(int s, Vector& y, double* part, bool parallel) const {
+  const int height = rows(s), width = columns(s), below = height - width;
+  const double* panel = L_.data() + panel_[s];
+  double* own = y.data() + nodes_.first_column[s];
+  double* rest = part + part_begin(s);
+  const int* row = nodes_.row.data() + nodes_.begin[s] + width;
+  for (int i = 0; i < below; ++i) rest[i] = y[row[i]];
+  if (below > 0)
+    for_each((width + tile - 1) / tile, parallel, [&](int t) {
+      const int first = t * tile, count = std::min(tile, width - first);
+      dgemv_("T", &below, &count, &minus_one, panel + width + std::int64_t{height} * first, &height,
+             rest, &unit_stride, &one, own + first, &unit_stride);
+    });
+  dtrsv_("L", "T", "N", &width, panel, &height, own, &unit_stride);
+}
+
 Vector Multifrontal::solve(const Vector& right_hand_side) const {
   const int n = static_cast<int>(nodes_.permutation.size());
   Vector y(n);
   for (int i = 0; i < n; ++i) y[i] = right_hand_side[nodes_.permutation[i]];
+  const Buffer part(new double[static_cast<size_t>(part_begin(supernodes()))]);
+  const int subtrees = static_cast<int>(subtrees_.size());
 #pragma omp parallel
 #pragma omp single
-  substitute(y);
+  {
+    for_each(subtrees, true, [&](int i) {
+      for (int s = subtrees_[i].first; s <= subtrees_[i].second; ++s)
+        substitute_forward(s, y, part.get(), false);
+    });
+    for (const int s : top_) substitute_forward(s, y, part.get(), true);
+    for (auto s = top_.rbegin(); s != top_.rend(); ++s)
+      substitute_backward(*s, y, part.get(), true);
+    for_each(subtrees, true, [&](int i) {
+      for (int s = subtrees_[i].second; s >= subtrees_[i].first; --s)
+        substitute_backward(s, y, part.get(), false);
+    });
+  }
   Vector x(n);
   for (int i = 0; i < n; ++i) x[nodes_.permutation[i]] = y[i];
   return x;
-}
-
-void Multifrontal::substitute(Vector& y) const {
-  Vector part(y.size());
-  for (int s = 0; s < supernodes(); ++s) {
-    const int height = rows(s), width = columns(s), below = height - width;
-    const double* panel = L_.data() + panel_[s];
-    double* own = y.data() + nodes_.first_column[s];
-    dtrsv_("L", "N", "N", &width, panel, &height, own, &unit_stride);
-    if (below == 0) continue;
-    const double zero = 0;
-    dgemv_("N", &below, &width, &one, panel + width, &height, own, &unit_stride, &zero, part.data(),
-           &unit_stride);
-    const int* row = nodes_.row.data() + nodes_.begin[s] + width;
-    for (int i = 0; i < below; ++i) y[row[i]] -= part[i];
-  }
-  for (int s = supernodes() - 1; s >= 0; --s) {
-    const int height = rows(s), width = columns(s), below = height - width;
-    const double* panel = L_.data() + panel_[s];
-    double* own = y.data() + nodes_.first_column[s];
-    if (below > 0) {
-      const int* row = nodes_.row.data() + nodes_.begin[s] + width;
-      for (int i = 0; i < below; ++i) part[i] = y[row[i]];
-      dgemv_("T", &below, &width, &minus_one, panel + width, &height, part.data(), &unit_stride,
-             &one, own, &unit_stride);
-    }
-    dtrsv_("L", "T", "N", &width, panel, &height, own, &unit_stride);
-  }
 }
 
 }  // namespace bight

@@ -47,9 +47,12 @@ class Multifrontal {
   int supernodes() const { return static_cast<int>(nodes_.first_column.size()) - 1; }
   int columns(int s) const { return nodes_.first_column[s + 1] - nodes_.first_column[s]; }
   int rows(int s) const { return static_cast<int>(nodes_.begin[s + 1] - nodes_.begin[s]); }
+  /// Where the rows below a supernode's columns begin, counted over all before it.
+  std::int64_t part_begin(int s) const { return nodes_.begin[s] - nodes_.first_column[s]; }
   void plan_entries(const SymmetricMatrix& pattern);
   void plan_tree();
-  void substitute(Vector& y) const;
+  void substitute_forward(int s, Vector& y, double* part, bool parallel) const;
+  void substitute_backward(int s, Vector& y, double* part, bool parallel) const;
   void add_update(int child, int first, int last, double* to, int ld, int offset, bool parallel);
   bool eliminate(int s, const SymmetricMatrix& matrix, double shift, bool parallel);
 
