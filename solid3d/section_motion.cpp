@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 
 namespace bight::solid3d {
 
@@ -94,34 +95,40 @@ Screw screw(const SectionPlace& from, const SectionPlace& to, double de) {
           from.rotation.transpose() * (to.centre - from.centre) / de};
 }
 
+/// A node as its section sees it.
+Vector3 seen_from(const SectionPlace& place, const Vector& x, int at) {
+  return place.rotation.transpose() * (x.segment<3>(at) - place.centre);
+}
+
 /// Moves a strand of x, its newest state, on to `ebar`.
 void extrapolate_strand(const Mesh& mesh, const std::vector<Station>& states, double ebar,
                         Vector& x) {
   const Station &now = states.back(), &before = states[states.size() - 2];
+  const Station& first = states[std::max<size_t>(states.size(), 3) - 3];
+  const bool three = states.size() > 2;
   const double de = ebar - now.ebar, last = now.ebar - before.ebar;
+  const double earlier = before.ebar - first.ebar;
   const auto places = section_places(mesh, now.x), old = section_places(mesh, before.x);
-  std::vector<SectionPlace> oldest;
-  double first = 0, blend = 0;
-  if (states.size() > 2) {
-    const Station& s = states[states.size() - 3];
-    oldest = section_places(mesh, s.x);
-    first = before.ebar - s.ebar;
-    // Rates belong to the middles of the steps: linear extrapolation to the middle of the next.
-    blend = (de + last) / (last + first);
-  }
+  const auto oldest = three ? section_places(mesh, first.x) : std::vector<SectionPlace>();
+  // Rates belong to the middles of the steps: linear extrapolation to the middle of the next.
+  const auto further = [&](const Vector3& rate, const Vector3& rate_before) {
+    return Vector3(rate + (de + last) / (last + earlier) * (rate - rate_before));
+  };
   for (int k = 0; k < mesh.layers(); ++k) {
     Screw rate = screw(old[k], places[k], last);
-    if (!oldest.empty()) {
-      const Screw earlier = screw(oldest[k], old[k], first);
-      rate.turn += blend * (rate.turn - earlier.turn);
-      rate.shift += blend * (rate.shift - earlier.shift);
+    if (three) {
+      const Screw rate_before = screw(oldest[k], old[k], earlier);
+      rate = {further(rate.turn, rate_before.turn), further(rate.shift, rate_before.shift)};
     }
     const Matrix3& R = places[k].rotation;
-    const Matrix3 turn = R * exponential(de * rate.turn) * R.transpose();
-    const Vector3 shift = R * (de * rate.shift);
+    const Vector3 centre = places[k].centre + R * (de * rate.shift);
+    const Matrix3 turned = R * exponential(de * rate.turn);
     for (int p = 0; p < mesh.points_per_layer(); ++p) {
-      auto node = x.segment<3>(3 * mesh.node(k, p));
-      node = (places[k].centre + shift + turn * (node - places[k].centre)).eval();
+      const int at = 3 * mesh.node(k, p);
+      const Vector3 mine = seen_from(places[k], now.x, at), was = seen_from(old[k], before.x, at);
+      Vector3 strain = (mine - was) / last;
+      if (three) strain = further(strain, (was - seen_from(oldest[k], first.x, at)) / earlier);
+      x.segment<3>(at) = centre + turned * (mine + de * strain);
     }
   }
 }

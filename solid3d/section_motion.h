@@ -31,8 +31,8 @@ struct Station {
 };
 
 /// Guess for `ebar` from the last two or three accepted states (newest last): every section goes on
-/// along its own screw, at the rate that the last steps had, extrapolated. (In Cartesian
-/// coordinates the same extrapolation is worse than none.)
+/// along its own screw, and deforms in its own frame, at the rates that the last steps had,
+/// extrapolated. (In Cartesian coordinates the same extrapolation is worse than none.)
 Vector extrapolate_sections(std::span<const Mesh> strands, const std::vector<Station>& states,
                             double ebar);
 inline Vector extrapolate_sections(const Mesh& mesh, const std::vector<Station>& states,

@@ -92,3 +92,22 @@ TEST_CASE("a screw that gains speed is extrapolated exactly over unequal steps")
   const Vector guess = extrapolate_sections(mesh, {at(10.5), at(10), at(9.7)}, 9.5);
   CHECK((guess - at(9.5).x).norm() < 1e-11);
 }
+
+TEST_CASE("a section that deforms while it turns is extrapolated in its own frame") {
+  const Mesh mesh = test::straight_mesh(12, 2.0, 1.0);
+  const auto at = [&](double ebar) {
+    const double e = 10 - ebar, angle = 0.3 * e + 0.2 * e * e;
+    const double swelling = 0.05 * e - 0.03 * e * e, warp = 0.02 * e + 0.01 * e * e;
+    const Matrix3 R = Eigen::AngleAxisd(angle, Vector3(1, 2, 2) / 3).toRotationMatrix();
+    Vector x = test::reference_state(mesh, 2);
+    for (int n = 0; n < mesh.nodes(); ++n) {
+      const Vector3 X = mesh.reference(n);
+      x.segment<3>(3 * n) =
+          Vector3(0, 0, X.z()) +
+          R * Vector3((1 + swelling) * X.x(), (1 - swelling) * X.y(), warp * X.x() * X.y());
+    }
+    return Station{ebar, x};
+  };
+  const Vector guess = extrapolate_sections(mesh, {at(10.5), at(10), at(9.7)}, 9.5);
+  CHECK((guess - at(9.5).x).norm() < 1e-11);
+}
