@@ -92,7 +92,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");
     result.decrement = std::abs(g.dot(step));
     if (result.iterations == 0) first_decrement = result.decrement;
-    if (result.decrement > steps.most_growth * first_decrement)
+    if (result.decrement > std::max(steps.short_step, steps.most_growth * first_decrement))
       return finish(NewtonStatus::stalled, "the steps grow");
 
     const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);

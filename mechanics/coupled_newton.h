@@ -20,8 +20,10 @@ class FollowingForces {
 /// How far the steps of coupled_newton() go.
 struct CoupledSteps {
   bool damped = false;
-  /// Growth of the decrement over the first one that ends an attempt: full steps that wander.
+  /// Steps that wander end an attempt: those with a decrement above `most_growth` times the first
+  /// one and above that of a short step.
   double most_growth = std::numeric_limits<double>::infinity();
+  double short_step = 0;
 };
 
 /// Solves for equilibrium with following forces, from x near it: Newton's method with the whole,

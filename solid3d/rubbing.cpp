@@ -9,8 +9,10 @@ namespace {
 constexpr int few_first = 3, most_full = 15, most_damped = 30;
 /// Of full steps that settle.
 constexpr double most_growth = 2;
-/// Relative to the force scale. The energy of the last step is the square of what it leaves.
-constexpr double first_tolerance = 1e-2, energy_tolerance = 5e-7, force_tolerance = 1e-5;
+/// Relative to the force scale: decrement of a short step, tolerances of the first iterations and
+/// of the last ones. The energy of the last step is the square of what it leaves.
+constexpr double short_step = 5e-2, first_tolerance = 1e-2, energy_tolerance = 5e-7,
+                 force_tolerance = 1e-5;
 
 NewtonOptions within(NewtonOptions options, int iterations, double energy, double force) {
   options.max_iterations = iterations;
@@ -19,22 +21,46 @@ NewtonOptions within(NewtonOptions options, int iterations, double energy, doubl
   return options;
 }
 
-/// From `begun` on, counting its iterations: full steps, then damped ones where these fail.
-NewtonResult coupled(System& system, Rubbing& rubbing, const NewtonResult& begun,
-                     const NewtonOptions& options, double scale, const NewtonObserver& observer) {
-  NewtonResult result = begun;
-  for (const bool damped : {false, true}) {
-    const CoupledSteps steps = damped ? CoupledSteps{true} : CoupledSteps{false, most_growth};
-    const int most = damped ? most_damped : most_full;
-    NewtonResult next = coupled_newton(
-        system, rubbing, begun.x,
-        within(options, most, energy_tolerance * scale, force_tolerance * scale), steps, observer);
+/// One solve after another, each with the iterations of those before counted on.
+class Attempts {
+ public:
+  Attempts(System& system, Rubbing& rubbing, const NewtonOptions& options, double scale,
+           const NewtonObserver& observer)
+      : system_(system), rubbing_(rubbing), options_(options), scale_(scale), observer_(observer) {}
+
+  /// With the last accepted state's friction.
+  bool frozen(const Vector& from, int iterations) {
+    rubbing_.freeze(rubbing_.from());
+    const double tolerance = first_tolerance * scale_;
+    return take(
+        newton(system_, from, within(options_, iterations, tolerance, tolerance), observer_));
+  }
+  /// With the whole tangent.
+  bool coupled(const Vector& from, CoupledSteps steps) {
+    return take(coupled_newton(system_, rubbing_, from,
+                               within(options_, steps.damped ? most_damped : most_full,
+                                      energy_tolerance * scale_, force_tolerance * scale_),
+                               steps, observer_));
+  }
+  bool full_or_damped(const Vector& from) {
+    return coupled(from, {.most_growth = most_growth}) || coupled(from, {.damped = true});
+  }
+
+  NewtonResult result;  ///< of the last one
+
+ private:
+  bool take(NewtonResult next) {
     next.count_on(result);
     result = std::move(next);
-    if (result.ok()) break;
+    return result.ok();
   }
-  return result;
-}
+
+  System& system_;
+  Rubbing& rubbing_;
+  const NewtonOptions& options_;
+  double scale_;
+  const NewtonObserver& observer_;
+};
 
 }  // namespace
 
@@ -51,24 +77,24 @@ void Rubbing::add_change(const Vector& dx, Vector& gradient) const {
 NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& guess,
                             const NewtonOptions& options, double scale,
                             const NewtonObserver& observer) {
-  const double tolerance = first_tolerance * scale;
-  const auto as_before = [&](const Vector& x, int iterations) {
-    rubbing.freeze(rubbing.from());
-    return newton(system, x, within(options, iterations, tolerance, tolerance), observer);
-  };
-  const NewtonResult begun = as_before(guess, few_first);
-  const NewtonResult result = coupled(system, rubbing, begun, options, scale, observer);
-  if (result.ok()) return result;
-  NewtonResult nearer = as_before(begun.x, options.max_iterations);
-  nearer.count_on(result);
-  if (!nearer.ok()) return nearer;
-  return coupled(system, rubbing, nearer, options, scale, observer);
+  Attempts attempts(system, rubbing, options, scale, observer);
+  if (attempts.coupled(guess, {.damped = true, .most_growth = 0, .short_step = short_step * scale}))
+    return attempts.result;
+  attempts.frozen(guess, few_first);
+  const Vector begun = attempts.result.x;
+  if (attempts.full_or_damped(begun)) return attempts.result;
+  if (attempts.frozen(begun, options.max_iterations))
+    attempts.full_or_damped(Vector(attempts.result.x));
+  return attempts.result;
 }
 
 NewtonResult newton_rubbing_on(System& system, Rubbing& rubbing, const NewtonResult& solved,
                                const NewtonOptions& options, double scale,
                                const NewtonObserver& observer) {
-  return coupled(system, rubbing, solved, options, scale, observer);
+  Attempts attempts(system, rubbing, options, scale, observer);
+  attempts.result = solved;
+  attempts.full_or_damped(solved.x);
+  return attempts.result;
 }
 
 }  // namespace bight::solid3d

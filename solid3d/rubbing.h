@@ -28,16 +28,17 @@ class Rubbing final : public FollowingForces {
   Vector frozen_at_;
 };
 
-/// Newton steps with the whole tangent, full ones or else damped ones, after a few with the last
-/// state's friction: the contact forces of a guess are too rough to begin with. Where both fail, as
-/// many of the first as it takes, and again. `options` is what a frictionless solve would take;
-/// tolerances and iterations are replaced by those of friction, relative to the force `scale`
-/// [E D^2].
+/// Newton steps with the whole tangent. From a guess whose first step is short, damped ones; they
+/// are given up where one is not. Else a few steps with the last state's friction come first: the
+/// contact forces of a poor guess are too rough to begin with. Then full ones, then damped ones
+/// where these fail; where both fail, as many of the few as it takes, and again. `options` is what
+/// a frictionless solve would take; tolerances and iterations are replaced by those of friction,
+/// relative to the force `scale` [E D^2].
 NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& guess,
                             const NewtonOptions& options, double scale,
                             const NewtonObserver& observer);
 
-/// The same from a solution after something has changed, without the few first ones.
+/// The same from a solution after something has changed: full steps, then damped ones.
 NewtonResult newton_rubbing_on(System& system, Rubbing& rubbing, const NewtonResult& solved,
                                const NewtonOptions& options, double scale,
                                const NewtonObserver& observer);

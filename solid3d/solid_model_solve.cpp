@@ -22,6 +22,8 @@ constexpr double energy_rise = 0.3;
 constexpr double start_rise = 0.1;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60;
+/// Of a guess: no shift is known yet. The tangent there is mostly indefinite, so zero is not tried.
+constexpr double unknown_shift = std::numeric_limits<double>::infinity();
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
 /// Times that a start is tried with contact a tenth as stiff.
@@ -44,6 +46,7 @@ NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
 
 NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
   const auto attempt = [&] {
+    system_.shift = unknown_shift;
     start_energy_ = relaxing_ ? energy(guess) : 0;
     return effects_.friction ? solve_with_friction(guess)
                              : solve_frictionless(best_guess(guess, ebar));

@@ -65,10 +65,10 @@ struct BetweenSprings {
         std::vector<test::Springs::Spring>{{0, 3, 1, 1}, {3, 6, 1, 1}}));
     effects.push_back(std::move(owned));
   }
-  NewtonResult solve(double z, const NewtonOptions& options, bool damped) {
+  NewtonResult solve(double z, const NewtonOptions& options, CoupledSteps steps) {
     Vector x = Vector::Zero(9);
     x[5] = z, x[8] = 5;
-    return coupled_newton(system, force, x, options, {damped});
+    return coupled_newton(system, force, x, options, steps);
   }
 };
 
@@ -79,7 +79,7 @@ TEST_CASE("a force that follows the state is found with the whole tangent, quadr
   BetweenSprings problem(std::make_unique<Follower>(3, 1));
   NewtonOptions options;
   options.energy_tolerance = 1e-20, options.force_tolerance = 1e-10, options.largest_move = 1;
-  const NewtonResult result = problem.solve(2.4, options, GENERATE(false, true));
+  const NewtonResult result = problem.solve(2.4, options, {.damped = GENERATE(false, true)});
   REQUIRE(result.ok());
   CHECK(result.iterations <= 7);  // dozens when the change of the force is left out
   // The force that the springs carry is k times the length, to round-off.
@@ -88,6 +88,29 @@ TEST_CASE("a force that follows the state is found with the whole tangent, quadr
   const Vector3 carried = pull(p) + pull(p - q);
   CHECK(carried.x() == Approx(3 * p.norm()).epsilon(1e-9));
   CHECK(std::abs(carried.z()) < 1e-9);
+}
+
+TEST_CASE("an attempt of short steps alone ends before the first one that is not") {
+  NewtonOptions options;
+  options.energy_tolerance = 1e-20, options.force_tolerance = 1e-10, options.largest_move = 1;
+  const auto solve = [&](double short_step) {
+    return BetweenSprings(std::make_unique<Follower>(3, 1))
+        .solve(2.4, options, {.damped = true, .most_growth = 0, .short_step = short_step});
+  };
+  double first = 0;
+  NewtonObserver observer = [&](const NewtonMonitor& m) {
+    if (m.iteration == 0) first = m.decrement;
+  };
+  BetweenSprings watched(std::make_unique<Follower>(3, 1));
+  Vector x = Vector::Zero(9);
+  x[5] = 2.4, x[8] = 5;
+  REQUIRE(
+      coupled_newton(watched.system, watched.force, x, options, {.damped = true}, observer).ok());
+  const NewtonResult none = solve(0.99 * first);
+  CHECK(none.status == NewtonStatus::stalled);
+  CHECK(none.iterations == 0);
+  CHECK(none.x == x);
+  CHECK(solve(1.01 * first).ok());
 }
 
 TEST_CASE("damped steps find a force whose full steps do not settle") {
@@ -114,8 +137,8 @@ TEST_CASE("damped steps find a force whose full steps do not settle") {
   NewtonOptions options;
   options.energy_tolerance = 1e-16, options.force_tolerance = 1e-8, options.largest_move = 1;
   options.bound.first_rise = 1e3;
-  CHECK_FALSE(problem.solve(3, options, false).ok());
-  const NewtonResult damped = problem.solve(3, options, true);
+  CHECK_FALSE(problem.solve(3, options, {}).ok());
+  const NewtonResult damped = problem.solve(3, options, {.damped = true});
   REQUIRE(damped.ok());
   CHECK(damped.x[5] == Approx(2.5));
 }
