@@ -67,9 +67,6 @@ class Check {
 
   void confirmation() {
     if (!scene_.solid || scene_.confirm_at.empty()) return;
-    if (scene_.friction > 0)
-      refuse("solid3d.confirm_at",
-             "with friction a state depends on its path, which another mesh has not gone");
     if (scene_.inertia)
       refuse("solid3d.confirm_at", "only equilibria are confirmed, without effects.inertia");
     const auto [low, high] =

@@ -109,7 +109,9 @@ solid3d::FrictionMemory read_memory(hid_t file, const std::string& name) {
   return memory;
 }
 
-// Points of a recorded state that is to be confirmed.
+constexpr Eigen::Index rub_numbers = 5;
+
+// Points of a recorded state that is to be confirmed, and how it rubs.
 void write_points(hid_t file, size_t k, const solid3d::SolidState& state) {
   for (const auto& [name, points] :
        {std::pair("nodes", &state.nodes), std::pair("centerline", &state.centerline)}) {
@@ -118,6 +120,13 @@ void write_points(hid_t file, size_t k, const solid3d::SolidState& state) {
       x.segment<3>(3 * static_cast<Eigen::Index>(i)) = (*points)[i];
     write_vector(file, fmt::format("{}_{}", name, k).c_str(), x);
   }
+  Vector rubs(rub_numbers * static_cast<Eigen::Index>(state.rubs.size()));
+  Eigen::Index at = 0;
+  for (const Rub& rub : state.rubs) {
+    rubs.segment<rub_numbers>(at) << rub.s_a, rub.s_b, rub.elastic_slip;
+    at += rub_numbers;
+  }
+  write_vector(file, fmt::format("rubs_{}", k).c_str(), rubs);
 }
 
 void read_points(hid_t file, size_t k, solid3d::SolidState& state) {
@@ -128,6 +137,9 @@ void read_points(hid_t file, size_t k, solid3d::SolidState& state) {
     const Vector x = read_vector(file, set.c_str());
     for (Eigen::Index i = 0; i + 2 < x.size(); i += 3) points->push_back(x.segment<3>(i));
   }
+  const Vector rubs = read_vector(file, fmt::format("rubs_{}", k).c_str());
+  for (Eigen::Index i = 0; i < rubs.size(); i += rub_numbers)
+    state.rubs.push_back({rubs[i], rubs[i + 1], rubs.segment<3>(i + 2)});
 }
 
 void write_file(const fs::path& path, const Checkpoint& checkpoint) {

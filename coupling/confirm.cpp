@@ -28,6 +28,7 @@ std::vector<Confirmation> confirm(const Scene& scene, const solid3d::Mesh& mesh,
         swept_mesh(sweep_options(scene, scene.confirm_elements), centerline_of(state));
     solid3d::SolidParameters parameters = solid_parameters(scene);
     parameters.expected_tension = state.tension;
+    parameters.rubs = state.rubs;
     parameters.path.waypoints = parameters.path.record = {state.ebar};
     parameters.checkpoint_every = 0;
     confirmed.push_back({state.ebar, state.tension, {}});

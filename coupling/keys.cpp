@@ -157,7 +157,7 @@ const std::vector<Key>& all_keys() {
       {"solid3d.seed_ebar", number, "", {-1e5, 1e5}, {}, "", "the first waypoint",
        "ebar at which the rod's state becomes the solid's start"},
       {"solid3d.confirm_at", numbers, "", {-1e5, 1e5}, {}, "", "none",
-       "ebar, on the solid's path, at which its state is found again on a finer section; without friction"},
+       "ebar, on the solid's path, at which its state is found again on a finer section"},
       {"solid3d.confirm_elements", integer, "", {5, 2000}, {}, "", "60, or 21 of the quadratic element, with solid3d.confirm_at",
        "About this many hexahedra in the section of solid3d.confirm_at", Fineness::count_per_area},
       {"solid3d.axial_ratio", number, "", {0.1, 5}, {}, "0.8", "",

@@ -166,7 +166,8 @@ void Recorder::keep(const solid3d::SolidState& state) {
        {&light.jacobian, &light.pressure, &light.von_mises, &light.contact_pressure, &light.gap})
     field->clear();
   const auto same = [&](double ebar) { return std::abs(ebar - state.ebar) < 1e-6; };
-  if (std::ranges::none_of(scene_.confirm_at, same)) light.nodes.clear(), light.centerline.clear();
+  if (std::ranges::none_of(scene_.confirm_at, same))
+    light.nodes.clear(), light.centerline.clear(), light.rubs.clear();
   solid_states.push_back(std::move(light));
 }
 

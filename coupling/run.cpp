@@ -33,6 +33,7 @@ void run_seeded_solid(const Scene& scene, Recorder& recorder, const std::optiona
   const std::vector<Vector3> start = sweep(mesh, seed);
   solid3d::SolidParameters parameters = solid_parameters(scene);
   parameters.expected_tension = seed.tension;
+  parameters.rubs = seed.rubs;
   solid3d::SolidResult result =
       run_solid(mesh, start, seed.ebar, parameters,
                 recorder.watch_solid(mesh, parameters.path, from), from ? &from->solid : nullptr);

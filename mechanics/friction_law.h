@@ -9,6 +9,13 @@ namespace bight {
 /// Relative motion of two surfaces at which sticking gives way [D].
 constexpr double largest_elastic_slip = 0.002;
 
+/// How two places of a rod's skin stick to each other: what friction hands from one model of a knot
+/// to the next.
+struct Rub {
+  double s_a, s_b;       ///< undeformed arc lengths of their sections [D]
+  Vector3 elastic_slip;  ///< of a against b, largest_elastic_slip long where they slide [D]
+};
+
 /// Coulomb friction with elastic stick, as a convex incremental potential of the slip s >= 0 since
 /// the sample last slid, at a normal force N that is frozen during a solve:
 ///

@@ -75,6 +75,17 @@ struct Section {
   Vector3 tangent() const { return frame.col(2); }
 };
 
+Vector3 normal(const Section& a, const Section& b) { return (a.point - b.point).normalized(); }
+
+using SlipAxes = Eigen::Matrix<double, 3, 2>;
+SlipAxes slip_axes(const Section& a, const Section& b) {
+  const Vector3 n = normal(a, b);
+  SlipAxes axes;
+  axes.col(0) = (a.tangent() - n * n.dot(a.tangent())).normalized();
+  axes.col(1) = n.cross(axes.col(0));
+  return axes;
+}
+
 /// A vector that depends on one section: on its dy/ds and its angle.
 using SectionJet = Jet<4>;
 using SectionVector = std::array<SectionJet, 3>;
@@ -260,10 +271,8 @@ std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<Rubbi
     const Section a(rod, at_a, x, frames), b(rod, at_b, x, frames);
     const Section a_t0(rod, at_a, history.x, history.frames);
     const Section b_t0(rod, at_b, history.x, history.frames);
-    const Vector3 n = (a.point - b.point).normalized();
-    Eigen::Matrix<double, 3, 2> axes;
-    axes.col(0) = (a.tangent() - n * n.dot(a.tangent())).normalized();
-    axes.col(1) = n.cross(axes.col(0));
+    const Vector3 n = normal(a, b);
+    const SlipAxes axes = slip_axes(a, b);
 
     // Turns of both sections since then, and the distance of the two surface points then.
     const Matrix3 turn_a = a.frame * a_t0.frame.transpose();
@@ -283,6 +292,17 @@ std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<Rubbi
     spots.push_back(spot);
   }
   return spots;
+}
+
+std::vector<Rub> rubs(const Rod& rod, const FrictionHistory& history) {
+  const std::vector<double> arc = rod.arc_length();
+  std::vector<Rub> list;
+  for (const auto& [arc_a, arc_b, elastic_slip] : history.memory) {
+    const Section a(rod, place_at(rod, arc, arc_a), history.x, history.frames);
+    const Section b(rod, place_at(rod, arc, arc_b), history.x, history.frames);
+    list.push_back({arc_a, arc_b, slip_axes(a, b) * elastic_slip});
+  }
+  return list;
 }
 
 }  // namespace bight::rod1d

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "mechanics/friction_law.h"
 #include "rod1d/effects/contact.h"
 #include "rod1d/frames.h"
 
@@ -72,5 +73,8 @@ struct FrictionHistory {
 std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<RubbingPoint>& points,
                                          const Vector& x, const Frames& frames,
                                          const FrictionHistory& history);
+
+/// The elastic slips that are remembered, as vectors.
+std::vector<Rub> rubs(const Rod& rod, const FrictionHistory& history);
 
 }  // namespace bight::rod1d

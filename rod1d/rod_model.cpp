@@ -303,9 +303,12 @@ RodState RodModel::state() const {
   state.ebar = now.ebar;
   for (double& angle : state.twist_angle) angle -= now.x[rod_.angle(0)];
   // Both ends of a symmetric rod turn alike: seen from the start, the rod turns as a whole.
-  if (symmetry_ && parameters_.twist)
-    for (Vector3& p : state.nodes)
-      p = Eigen::AngleAxisd(-now.x[rod_.angle(0)], Vector3::UnitZ()) * p;
+  const Eigen::AngleAxisd turn(symmetry_ && parameters_.twist ? -now.x[rod_.angle(0)] : 0.0,
+                               Vector3::UnitZ());
+  for (Vector3& p : state.nodes) p = turn * p;
+  state.rubs = rubs(rod_, history_);
+  if (symmetry_) state.rubs = symmetry_->whole(std::move(state.rubs), length_);
+  for (Rub& rub : state.rubs) rub.elastic_slip = turn * rub.elastic_slip;
   state.tension = tension_;
   state.energy_by_effect = energy_by_effect_;
   return state;

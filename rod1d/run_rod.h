@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/assemble.h"
+#include "mechanics/friction_law.h"
 #include "mechanics/path.h"
 #include "mechanics/types.h"
 
@@ -60,6 +61,7 @@ struct RodState {
   std::vector<double> twist;          ///< twist per undeformed length at the nodes [1/D]; or empty
   std::vector<double> contact_force;  ///< contact force per length at the nodes [E D]
   std::vector<ContactSpot> contacts;  ///< what touches, ordered by s_a
+  std::vector<Rub> rubs;              ///< how it rubs; empty without friction
   double tension = 0;                 ///< [E D^2]
   double writhe = 0;
   int determinant = 0;  ///< of the closed centerline: 1 unknot, 3 overhand, 5 figure-eight

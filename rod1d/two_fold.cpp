@@ -127,6 +127,14 @@ std::vector<ContactPoint> TwoFold::halved(std::vector<ContactPoint> points, doub
   return points;
 }
 
+std::vector<Rub> TwoFold::whole(std::vector<Rub> half, double length) const {
+  for (size_t i = 0, count = half.size(); i < count; ++i) {
+    const auto& [s_a, s_b, slip] = half[i];
+    half.push_back({length - s_a, length - s_b, image(slip)});
+  }
+  return half;
+}
+
 void HalfEffect::list() {
   kept_.clear();
   for (int i = 0; i < whole_.stencils(); ++i)

@@ -6,6 +6,7 @@
 
 #include "mechanics/assemble.h"
 #include "mechanics/effect.h"
+#include "mechanics/friction_law.h"
 #include "mechanics/unknowns.h"
 #include "rod1d/effects/contact.h"
 #include "rod1d/frames.h"
@@ -58,6 +59,8 @@ class TwoFold {
   /// Effects of the whole rod, summed over one half and its image. Stencils of the effect `halved`
   /// are those of one half already.
   EffectList halves(const EffectList& whole, const Effect* halved = nullptr) const;
+  /// Of one half that counts for both, and their images, in a rod of this length.
+  std::vector<Rub> whole(std::vector<Rub> half, double length) const;
   /// Contact points of the whole rod as points of one half that count for their images too.
   std::vector<ContactPoint> halved(std::vector<ContactPoint> points, double length) const;
 

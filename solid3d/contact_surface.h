@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -59,6 +60,10 @@ class ContactSurface {
   int node(int patch) const { return first_[patch] / 3; }
 
   double arc_length(int along) const { return s_[along]; }
+  double arc_length_at(double v) const {
+    const int along = std::min(static_cast<int>(v), layers() - 2);
+    return s_[along] + (v - along) * (s_[along + 1] - s_[along]);
+  }
   /// Between two layers along their strand; infinite between strands [D].
   double apart(int along, int other) const {
     return strand_of_[along] == strand_of_[other] ? std::abs(s_[along] - s_[other])

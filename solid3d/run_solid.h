@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/assemble.h"
+#include "mechanics/friction_law.h"
 #include "mechanics/path.h"
 #include "mechanics/types.h"
 #include "solid3d/material/parameters.h"
@@ -35,6 +36,8 @@ struct SolidParameters {
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
   int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0, or with inertia: none
   double expected_tension = 1e-3;  ///< rough T at the start [E D^2]: scale of the first tolerances
+  /// How the start rubs, in its axes. Empty: nothing has rubbed before it is relaxed.
+  std::vector<Rub> rubs;
   Path path;
 };
 
@@ -54,6 +57,7 @@ struct SolidState {
   std::vector<double> curvature;   ///< kappa D of the centerline
   std::vector<double> flattening;  ///< 1 - smallest diameter of the section / D
   SectionLoads loads;
+  std::vector<Rub> rubs;                 ///< by contact sample; empty without friction
   std::vector<double> jacobian;          ///< J, per cell
   std::vector<double> pressure;          ///< mean Cauchy stress (tension positive), per cell [E]
   std::vector<double> von_mises;         ///< per cell [E]
@@ -61,7 +65,7 @@ struct SolidState {
   std::vector<double> gap;               ///< per node, to the facing strand [D]; large where none
   double tension = 0;                    ///< [E D^2]
   double min_jacobian = 1;
-  int determinant = 0;                             ///< of the closed centerline
+  int determinant = 0;     ///< of the closed centerline
   int skin_crossings = 0;  ///< pairs of triangles that cut each other beyond the overlap of contact
   std::map<std::string, double> energy_by_effect;  ///< [E D^3]
 };

@@ -52,7 +52,18 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
   if (symmetry_) symmetry_->impose(mesh, x);
   history_.push_back({start_ebar, std::move(x)});
   determinant_ = knot_determinant(centerline(mesh, newest()));
+  take_over(parameters.rubs);
   system_.advance = [this](Vector& state, const Vector& dx) { advance(state, dx); };
+}
+
+/// Friction of the start, given in the axes of the start.
+void SolidModel::take_over(std::vector<Rub> rubs) {
+  for (Rub& rub : rubs) rub.elastic_slip = from_frame_.linear().transpose() * rub.elastic_slip;
+  for (SolidEffects* effects : {&effects_, &whole_effects_}) {
+    if (rubs.empty() || !effects->friction) continue;
+    effects->contact->refresh(newest());
+    effects->friction->prescribe(rubs, newest());
+  }
 }
 
 Vector SolidModel::predict(double ebar) const {
@@ -132,10 +143,10 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   if (effects_.friction) {
     // The potential of a step counts what sliding has cost; energy is what is still there.
     Friction& friction = *whole().friction;
-    row.energy += friction.stored(newest()) -
-                  (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
     friction.accept(newest());
     if (symmetry_) effects_.friction->accept(newest());
+    row.energy += friction.stored(newest()) -
+                  (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
     row.dissipated = friction.dissipated();
   }
   row.end_torque = tension.torque;
@@ -154,7 +165,11 @@ SolidState SolidModel::state(double ebar) {
   s.ebar = ebar;
   s.tension = tension_;
   s.energy_by_effect = (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect();
-  if (effects_.friction) s.energy_by_effect["friction"] = whole().friction->stored(newest());
+  if (effects_.friction) {
+    s.energy_by_effect["friction"] = whole().friction->stored(newest());
+    s.rubs = whole().friction->rubs(newest());
+    for (Rub& rub : s.rubs) rub.elastic_slip = seen.linear() * rub.elastic_slip;
+  }
   if (motion_) s.energy_by_effect["inertia"] = motion_->kinetic_energy();
   return s;
 }

@@ -64,6 +64,8 @@ class SolidModel final : public PathModel {
   NewtonResult solve_with_friction(const Vector& guess);
   NewtonResult solve_at_rest(const Vector& guess, double ebar);
 
+  void take_over(std::vector<Rub> rubs);
+
   /// Takes a state over as the newest one and measures it.
   StepRow take(const NewtonResult& result, double ebar);
 

@@ -2,8 +2,16 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace bight::solid3d {
+
+namespace {
+
+/// A sample takes over what was said of places no farther than this from its own [D].
+constexpr double same_place = 1;
+
+}  // namespace
 
 Friction::Tangents Friction::tangents(const SurfacePoint& at) {
   Tangents E;
@@ -31,6 +39,8 @@ void Friction::freeze(const Vector& x, const Vector& start) {
     spot.limit_by_gap = contact_.law().curvature(sample.gap) / contact_.law().slope(sample.gap);
     spot.own = contact_.own_weights(sample);
     spot.facing = surface.weights(sample.facing.x(), sample.facing.y());
+    spot.s = arc_length(sample);
+    spot.s_facing = surface.arc_length_at(sample.facing.y());
     spot.coordinates = contact_.stencil(sample);
     spot.here = surface.evaluate(x, spot.own);
     spot.there = surface.evaluate(x, spot.facing);
@@ -38,21 +48,33 @@ void Friction::freeze(const Vector& x, const Vector& start) {
     spot.tangents = tangents(spot.here);
     spot.wandering = surface.projection_matrix(spot.there, spot.apart).inverse();
 
-    const auto found = memory_.elastic_slip.find(sample.id);
     const SurfacePoint own_then = surface.evaluate(start, spot.own);
     const SurfacePoint facing_then = surface.evaluate(start, spot.facing);
     const Tangents tangents_then = tangents(own_then);
-    spot.before = (found == memory_.elastic_slip.end() ? Vector2(Vector2::Zero()) : found->second) -
-                  tangents_then.transpose() * (own_then.y - facing_then.y);
+    auto found = memory_.elastic_slip.find(sample.id);
+    if (found == memory_.elastic_slip.end() && !prescribed_.empty())
+      found = memory_.elastic_slip.emplace(sample.id, prescribed(sample, start)).first;
+    spot.remembered = found == memory_.elastic_slip.end() ? Vector2::Zero() : found->second;
+    spot.before = spot.remembered - tangents_then.transpose() * (own_then.y - facing_then.y);
     spot.before_by_facing.col(0) = tangents_then.transpose() * facing_then.y_u;
     spot.before_by_facing.col(1) = tangents_then.transpose() * facing_then.y_v;
     spots_.push_back(spot);
   }
 }
 
+Element<2> Friction::traction(const Vector& x, const Spot& spot) const {
+  const Vector2 s = slip(x, spot);
+  if (prescribed_.empty()) return friction_element(s, law(spot));
+  Element<2> out;
+  out.gradient = law(spot).stick_stiffness * spot.remembered;
+  out.energy = out.gradient.dot(s);
+  out.hessian.setZero();
+  return out;
+}
+
 void Friction::element(const Vector& x, int i, Order order, ElementSlot& slot) const {
   const Spot& spot = spots_[static_cast<size_t>(i)];
-  const Element<2> at = friction_element(slip(x, spot), law(spot));
+  const Element<2> at = traction(x, spot);
   slot.energy = at.energy;
   if (order == Order::energy) return;
 
@@ -96,7 +118,7 @@ void Friction::add_change(const Vector& x, const Vector& dx, Vector& gradient) c
     const Vector2 along = wander(spot, here, there);
     const Tangents turned = turn(spot, here);
 
-    const Element<2> at = friction_element(slip(x, spot), law(spot));
+    const Element<2> at = traction(x, spot);
     const Vector2 slip_change =
         turned.transpose() * spot.apart + spot.before_by_facing * along -
         spot.tangents.transpose() * (along.x() * spot.there.y_u + along.y() * spot.there.y_v);
@@ -117,6 +139,9 @@ void Friction::add_change(const Vector& x, const Vector& dx, Vector& gradient) c
 }
 
 void Friction::accept(const Vector& x) {
+  if (!prescribed_.empty())
+    for (Spot& spot : spots_) spot.before += spot.remembered - slip(x, spot);
+  prescribed_.clear();
   memory_.elastic_slip.clear();
   for (const Spot& spot : spots_) {
     const Vector2 s = slip(x, spot);
@@ -125,6 +150,47 @@ void Friction::accept(const Vector& x) {
     memory_.elastic_slip[spot.sample] =
         law(spot).slides(size) ? Vector2(s * (largest_elastic_slip / size)) : s;
   }
+}
+
+void Friction::prescribe(std::vector<Rub> rubs, const Vector& start) {
+  for (size_t i = 0, count = rubs.size(); i < count; ++i)
+    rubs.push_back({rubs[i].s_b, rubs[i].s_a, -rubs[i].elastic_slip});
+  std::sort(rubs.begin(), rubs.end(), [](const Rub& l, const Rub& r) { return l.s_a < r.s_a; });
+  prescribed_ = std::move(rubs);
+  // Once and for all: where a sample followed now this, now that, Newton would not settle.
+  for (const Contact::Sample& sample : contact_.samples())
+    if (sample.faces) memory_.elastic_slip[sample.id] = prescribed(sample, start);
+}
+
+double Friction::arc_length(const Contact::Sample& sample) const {
+  const ContactSurface& surface = contact_.surface();
+  return surface.arc_length_at(surface.along(sample.patch) + sample.local.y());
+}
+
+Vector2 Friction::prescribed(const Contact::Sample& sample, const Vector& start) const {
+  const double s = arc_length(sample);
+  const double s_facing = contact_.surface().arc_length_at(sample.facing.y());
+  const auto first = std::lower_bound(prescribed_.begin(), prescribed_.end(), s - same_place,
+                                      [](const Rub& rub, double arc) { return rub.s_a < arc; });
+  Vector3 nearest = Vector3::Zero();
+  double least = same_place;
+  for (auto rub = first; rub != prescribed_.end() && rub->s_a < s + least; ++rub) {
+    const double apart = std::hypot(rub->s_a - s, rub->s_b - s_facing);
+    if (apart < least) least = apart, nearest = rub->elastic_slip;
+  }
+  const SurfacePoint at = contact_.surface().evaluate(start, contact_.own_weights(sample));
+  return tangents(at).transpose() * nearest;
+}
+
+std::vector<Rub> Friction::rubs(const Vector& x) const {
+  std::vector<Rub> list;
+  for (const Spot& spot : spots_) {
+    const auto found = memory_.elastic_slip.find(spot.sample);
+    if (found == memory_.elastic_slip.end()) continue;
+    list.push_back({spot.s, spot.s_facing,
+                    tangents(contact_.surface().evaluate(x, spot.own)) * found->second});
+  }
+  return list;
 }
 
 double Friction::stored(const Vector& x) const {

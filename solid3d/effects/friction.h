@@ -47,8 +47,16 @@ class Friction final : public Effect {
   /// Takes x over as the newest accepted state: what every sample remembers, and what sliding cost.
   void accept(const Vector& x);
 
+  /// Until the next accepted state, tractions do not follow slip: their directions, and their sizes
+  /// against the normal force, are those of the elastic slips that another model of the knot had at
+  /// the nearest places. For a start, to which contact has been refreshed last: what moves while it
+  /// is relaxed is not what has rubbed. Nothing is dissipated then.
+  void prescribe(std::vector<Rub> rubs, const Vector& start);
+  /// What is remembered, as vectors at the newest accepted state x.
+  std::vector<Rub> rubs(const Vector& x) const;
+
   const FrictionMemory& memory() const { return memory_; }
-  void remember(FrictionMemory memory) { memory_ = std::move(memory); }
+  void remember(FrictionMemory memory) { memory_ = std::move(memory), prescribed_.clear(); }
 
   double stored(const Vector& x) const;                     ///< elastic energy of sticking [E D^3]
   double dissipated() const { return memory_.dissipated; }  ///< by all accepted steps [E D^3]
@@ -57,13 +65,15 @@ class Friction final : public Effect {
  private:
   using Tangents = Eigen::Matrix<double, 3, 2>;
   struct Spot {
-    int sample;  ///< its id
+    int sample;          ///< its id
+    double s, s_facing;  ///< undeformed arc lengths of both places [D]
     double limit;
     double limit_by_gap;  ///< dlimit/dgap over limit [1/D]
     PatchWeights own, facing;
     std::array<int, 54> coordinates;
     Tangents tangents;
     Vector2 before;             ///< m - E^T (x - y) at the start of the step
+    Vector2 remembered;         ///< m
     Vector3 apart;              ///< x - y where it was frozen [D]
     SurfacePoint here, there;   ///< both places of the surface, where it was frozen
     Eigen::Matrix2d wandering;  ///< motion (du, dv) of the facing point by d(y_u . d, y_v . d)
@@ -75,6 +85,11 @@ class Friction final : public Effect {
   static Tangents turn(const Spot& spot, const SurfacePoint& here);
 
   FrictionLaw law(const Spot& spot) const { return FrictionLaw::with_limit(spot.limit); }
+  Element<2> traction(const Vector& x, const Spot& spot) const;
+  double arc_length(const Contact::Sample& sample) const;
+  /// The elastic slip that is prescribed for the places nearest to a sample and what it faces, in
+  /// its tangents at the start; zero where none are near.
+  Vector2 prescribed(const Contact::Sample& sample, const Vector& start) const;
   Vector3 apart(const Vector& x, const Spot& spot) const;
   static Tangents tangents(const SurfacePoint& at);
   Vector2 slip(const Vector& x, const Spot& spot) const;
@@ -83,6 +98,7 @@ class Friction final : public Effect {
   double coefficient_;
   std::vector<Spot> spots_;
   FrictionMemory memory_;
+  std::vector<Rub> prescribed_;  ///< sorted by s_a, every pair from both sides
 };
 
 }  // namespace bight::solid3d

@@ -107,8 +107,6 @@ TEST_CASE("a bad scene is refused with a line that names place, key, value and w
       {small_scene + "[solid3d]\nseed_ebar = 5\n", {":9", "solid3d.seed_ebar", "20 to 30"}},
       {small_scene + "[solid3d]\nseed_ebar = 25\nconfirm_at = [26]\n",
        {":10", "solid3d.confirm_at", "26 is not on the solid's path, 25 to 20"}},
-      {small_scene + "[solid3d]\nconfirm_at = [20]\n[effects]\nfriction = 0.1\n",
-       {":9", "solid3d.confirm_at", "depends on its path"}},
       {small_scene_with("350 mm", "80 mm"), {"rod.length", "too short"}},
       {small_scene_with("\"350 mm\"", "1e300"), {":2", "rod.length", "too long"}},
       {small_scene_with("8.3 mm", "1e-320 m"), {"rod.length", "too long"}},
