@@ -194,8 +194,7 @@ def tight():
     return section("Tight: a rod of 350 mm", "tight", f"""\
 {forces(found, (25, 20, 15, 10, 5, 0, -5, -10))}
 
-Rod and solid, {"; ".join(said)}. (With friction the first states of the solid
-are not yet held by it: it takes 1 to 2 D of tightening to be mobilised.) The sections of the solid flatten where strands press on each other, and the
+Rod and solid, {"; ".join(said)}. The sections of the solid flatten where strands press on each other, and the
 knot takes less room than the rod's round sections do; a rod cannot give in like that.
 
 ![Tbar against ebar of the tight knot](../figures/paper_tight_forces.png)

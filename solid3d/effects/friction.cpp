@@ -139,14 +139,15 @@ void Friction::add_change(const Vector& x, const Vector& dx, Vector& gradient) c
 }
 
 void Friction::accept(const Vector& x) {
-  if (!prescribed_.empty())
+  const bool begins = !prescribed_.empty();
+  if (begins)
     for (Spot& spot : spots_) spot.before += spot.remembered - slip(x, spot);
   prescribed_.clear();
   memory_.elastic_slip.clear();
   for (const Spot& spot : spots_) {
     const Vector2 s = slip(x, spot);
     const double size = s.norm();
-    memory_.dissipated += law(spot).dissipated(size);
+    if (!begins) memory_.dissipated += law(spot).dissipated(size);
     memory_.elastic_slip[spot.sample] =
         law(spot).slides(size) ? Vector2(s * (largest_elastic_slip / size)) : s;
   }

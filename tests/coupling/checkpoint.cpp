@@ -28,6 +28,7 @@ Checkpoint example(int steps) {
   state.ebar = 17.5, state.curvature = {0.1, 0.2}, state.energy_by_effect = {{"strain", 1e-300}};
   at.states = {state, state};
   at.states[1].nodes = {{0.1, 1.0 / 3, -1e-20}, {1, 2, 3}};
+  at.states[1].rubs = {{0.3, 17, {1e-3, 0, -1.0 / 7}}, {5, 6, {0, 1, 2}}};
   at.states[1].centerline = {{0, 0, 1.0 / 7}};
   return at;
 }
@@ -62,6 +63,9 @@ TEST_CASE("a checkpoint reads back exactly") {
   REQUIRE(back->states.size() == 2);
   CHECK(back->states[0].nodes.empty());
   CHECK(back->states[1].nodes == at.states[1].nodes);
+  REQUIRE(back->states[1].rubs.size() == 2);
+  CHECK(back->states[1].rubs[0].s_b == 17);
+  CHECK(back->states[1].rubs[0].elastic_slip == at.states[1].rubs[0].elastic_slip);
   CHECK(back->states[1].centerline == at.states[1].centerline);
   CHECK(back->states[0].curvature == std::vector<double>{0.1, 0.2});
   CHECK(back->states[0].energy_by_effect.at("strain") == 1e-300);

@@ -110,6 +110,40 @@ TEST_CASE("what slides is dissipated, what sticks is stored and remembered") {
   CHECK(friction.dissipated() == Approx(before).epsilon(1e-9));
 }
 
+TEST_CASE("a start takes over how another model has rubbed, whatever slips while it is relaxed") {
+  Wound rod;
+  const Vector x = slid(rod, 0.05);
+  Friction& friction = rod.frozen(x);
+  friction.accept(x);
+  const std::vector<Rub> rubs = friction.rubs(x);
+  rod.start = x;
+  const auto held = test::evaluate(rod.frozen(x), x, zero(x));
+
+  Wound other;
+  other.start = x;
+  other.effects.contact->refresh(x);
+  other.effects.friction->prescribe(rubs, x);
+  const auto taken = test::evaluate(other.frozen(x), x, zero(x));
+  CHECK((taken.gradient - held.gradient).norm() < 1e-9 * held.gradient.norm());
+  const Vector back = slid(other, -0.03);
+  const auto still = test::evaluate(other.frozen(back), back, zero(back));
+  const Vector further = slid(other, 1e-4) - x;
+  CHECK(still.gradient.dot(further) / other.limit(back) ==
+        Approx(held.gradient.dot(further) / rod.limit(x)).epsilon(0.02));
+  test::check_derivatives(other.frozen(back), shaken(back, rod.positions, 1e-7), rod.positions,
+                          {1e-4, 4, 3.0});
+
+  // What then slips counts from the accepted state.
+  other.effects.friction->accept(back);
+  CHECK(other.effects.friction->dissipated() == 0);
+  other.start = back;
+  const auto after = test::evaluate(other.frozen(back), back, zero(back));
+  CHECK((after.gradient - still.gradient).norm() < 1e-9 * still.gradient.norm());
+  const Vector on = slid(other, -0.02);
+  const auto turned = test::evaluate(other.frozen(on), on, zero(on));
+  CHECK(turned.gradient.dot(after.gradient) < 0);
+}
+
 TEST_CASE("a step that only moves and turns the whole rod makes no friction") {
   Wound rod;
   const Matrix3 R = Eigen::AngleAxisd(0.7, Vector3(1, 2, -1).normalized()).toRotationMatrix();
