@@ -17,6 +17,9 @@ constexpr size_t kept_states = 3;  ///< for the predictor
 /// End tension [E D^2] of a start that takes the whole first penalty. A looser one takes less in
 /// proportion: the same overlap, and as many samples to share the load.
 constexpr double full_load = 6e-3;
+/// Part of the bound that the next step's largest overlap is to have; factor by which contact is
+/// made stiffer for that, at most.
+constexpr double aimed_overlap = 0.75, most_ahead = 2;
 
 }  // namespace
 
@@ -98,7 +101,20 @@ double SolidModel::energy(const Vector& x) {
 }
 
 StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
-  return motion_ ? moved_ : take(result, ebar);
+  if (motion_) return moved_;
+  const double before = tension_;
+  const StepRow row = take(result, ebar);
+  stiffen_ahead(tension_ / before);
+  return row;
+}
+
+/// Contact as stiff as the next step will need it, if its load grows as that of this one did: a
+/// solve with too large an overlap is one for nothing.
+void SolidModel::stiffen_ahead(double growth) {
+  if (!effects_.contact) return;
+  const double overlap = effects_.contact->max_penetration() * growth;
+  effects_.contact->law().stiffness *=
+      std::clamp(overlap / (aimed_overlap * parameters_.penetration), 1.0, most_ahead);
 }
 
 StepRow SolidModel::take(const NewtonResult& result, double ebar) {

@@ -65,6 +65,7 @@ class SolidModel final : public PathModel {
   NewtonResult solve_at_rest(const Vector& guess, double ebar);
 
   void take_over(std::vector<Rub> rubs);
+  void stiffen_ahead(double growth);
 
   /// Takes a state over as the newest one and measures it.
   StepRow take(const NewtonResult& result, double ebar);
