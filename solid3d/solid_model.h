@@ -55,6 +55,7 @@ class SolidModel final : public PathModel {
   void observe(NewtonObserver observer) { observer_ = std::move(observer); }
 
  private:
+  NewtonResult settle(const Vector& start);
   NewtonResult solve_frictionless(const Vector& guess);
   /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
   /// end tension stays. The start is relaxed with friction, too: the shape of a rod with friction

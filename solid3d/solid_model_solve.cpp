@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
 #include "solid3d/measure.h"
 #include "solid3d/solid_model.h"
@@ -62,8 +63,24 @@ NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
   return result;
 }
 
+/// Damped steps, which may raise the energy: the cells of a swept start store less than the same
+/// shape true to volume does, and its strands overlap.
+NewtonResult SolidModel::settle(const Vector& start) {
+  struct : FollowingForces {
+    void freeze(const Vector&) override {}
+    void add_change(const Vector&, Vector&) const override {}
+  } none;
+  return coupled_newton(system_, none, start, options(), {.damped = true}, observer_);
+}
+
 NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
-  NewtonResult result = newton(system_, guess, options(), observer_);
+  NewtonResult result;
+  if (relaxing_) result = settle(guess);
+  if (!result.ok()) {
+    const NewtonResult failed = std::move(result);
+    result = newton(system_, guess, options(), observer_);
+    result.count_on(failed);
+  }
   for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
     if (!effects_.contact->stiffen(parameters_.penetration)) break;
     result = go_on(std::move(result));
