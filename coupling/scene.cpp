@@ -135,6 +135,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.path.max_step = values.number("path.max_step");
   scene.segments = static_cast<int>(values.number("rod1d.segments"));
   scene.follow_knot = values.get<bool>("rod1d.follow_knot");
+  scene.rod_friction_at_surface = values.word("rod1d.friction_slip") == "surface";
   scene.rod_penetration = values.number("rod1d.penetration");
   scene.stretch_stiffness_factor = values.number("rod1d.stretch_stiffness_factor");
   scene.section_elements = static_cast<int>(values.number("solid3d.section_elements"));
@@ -192,6 +193,7 @@ rod1d::RodParameters rod_parameters(const Scene& scene) {
   rod.contact = scene.contact;
   rod.twist = scene.twist;
   rod.friction = scene.friction;
+  rod.friction_at_surface = scene.rod_friction_at_surface;
   rod.gravity = scene.gravity / scene.scales().acceleration();
   rod.magnetic = magnetic_moment(scene);
   rod.inertia = scene.inertia;

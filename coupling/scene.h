@@ -40,6 +40,7 @@ struct Scene {
   std::vector<double> forces;  ///< waypoints of the pulling force [N]; then path has none
   int segments = 0;
   bool follow_knot = true;
+  bool rod_friction_at_surface = true;
   double rod_penetration = 0, stretch_stiffness_factor = 1;
   int section_elements = 0;
   std::string element;  ///< of the solid

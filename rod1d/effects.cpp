@@ -32,7 +32,9 @@ RodEffects make_effects(const Rod& rod, const RodParameters& parameters, const F
     add(std::make_unique<Magnetic>(rod, parameters.magnetic));
   if (parameters.contact) effects.contact = add(std::make_unique<Contact>(rod, contact_spacing));
   if (parameters.friction > 0)
-    effects.friction = add(std::make_unique<Friction>(rod, *effects.contact, parameters.friction));
+    effects.friction = add(std::make_unique<Friction>(
+        rod, *effects.contact, parameters.friction,
+        parameters.friction_at_surface ? SlipOf::surface : SlipOf::centerline));
   return effects;
 }
 

@@ -260,7 +260,8 @@ std::vector<RubbingPoint> rubbing_points(const Rod& rod, const std::vector<Conta
 
 std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<RubbingPoint>& points,
                                          const Vector& x, const Frames& frames,
-                                         const FrictionHistory& history) {
+                                         const FrictionHistory& history, SlipOf of) {
+  const bool surface = of == SlipOf::surface;
   const std::vector<double> arc = rod.arc_length();
   std::vector<FrictionSpot> spots;
   for (const RubbingPoint& point : points) {
@@ -279,16 +280,19 @@ std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<Rubbi
     const Matrix3 turn_b = b.frame * b_t0.frame.transpose();
     const Vector3 apart =
         a_t0.point - b_t0.point - 0.5 * (turn_a.transpose() * n) - 0.5 * (turn_b.transpose() * n);
-    const Vector3 slip = -0.5 * (turn_a * apart + turn_b * apart);
+    const Vector3 slip = surface ? Vector3(-0.5 * (turn_a * apart + turn_b * apart))
+                                 : Vector3(b_t0.point - a_t0.point);
 
     spot.slip = remembered(history, point) + axes.transpose() * slip;
     spot.map = slip_map(at_a, at_b);
     const auto coordinates = friction_stencil(rod, spot.a, spot.b);
     spot.z.setZero();
     for (int k = 0; k < friction_coordinates; ++k) spot.z += spot.map.col(k) * x[coordinates[k]];
-    const SectionVector on_b = fixed_in(b, 0.5 * n);
-    for (const int c : {0, 1})
-      slip_component(fixed_in(a, axes.col(c)), a.point - b.point, on_b, c, spot);
+    const SectionVector on_b = surface ? fixed_in(b, 0.5 * n) : constant(Vector3::Zero());
+    for (const int c : {0, 1}) {
+      const SectionVector axis = surface ? fixed_in(a, axes.col(c)) : constant(axes.col(c));
+      slip_component(axis, a.point - b.point, on_b, c, spot);
+    }
     spots.push_back(spot);
   }
   return spots;

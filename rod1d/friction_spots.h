@@ -66,13 +66,19 @@ struct FrictionHistory {
   std::vector<Memory> memory;  ///< sorted by arc_a
 };
 
+/// What rubs: the surfaces, D/2 from the centerlines, whose slip holds the spin of the material
+/// frames; or the centerlines themselves, without spin and without a moment about them. That is the
+/// friction of rod codes without twist, for comparisons with them.
+enum class SlipOf { surface, centerline };
+
 /// The spots of these points at x, whose frames are `frames`. The slip since the last
 /// accepted state is that between the two points of the surfaces which touch at x: the distance
 /// that they had then, turned along with the strands. Finite turns that both strands share are no
 /// slip. A spot that was there before starts with its elastic slip.
 std::vector<FrictionSpot> friction_spots(const Rod& rod, const std::vector<RubbingPoint>& points,
                                          const Vector& x, const Frames& frames,
-                                         const FrictionHistory& history);
+                                         const FrictionHistory& history,
+                                         SlipOf of = SlipOf::surface);
 
 /// The elastic slips that are remembered, as vectors.
 std::vector<Rub> rubs(const Rod& rod, const FrictionHistory& history);

@@ -26,6 +26,7 @@ struct RodParameters {
   bool contact = true;
   bool twist = false;                  ///< twist angles are unknowns
   double friction = 0;                 ///< Coulomb coefficient; 0: no friction effect
+  bool friction_at_surface = true;     ///< else of the centerlines: SlipOf in friction_spots.h
   Vector3 gravity = Vector3::Zero();   ///< acceleration [E/(rho D)]; zero: no gravity effect
   Vector3 magnetic = Vector3::Zero();  ///< field, see effects/magnetic.h [sqrt(E) D]; zero: none
   bool inertia = false;                ///< the path is followed in time, not through equilibria

@@ -11,8 +11,9 @@ namespace bight::rod1d {
 /// and twist.
 class Friction final : public Effect {
  public:
-  Friction(const Rod& rod, const Contact& contact, double coefficient)
-      : rod_(rod), contact_(contact), coefficient_(coefficient) {}
+  Friction(const Rod& rod, const Contact& contact, double coefficient,
+           SlipOf slip_of = SlipOf::surface)
+      : rod_(rod), contact_(contact), coefficient_(coefficient), slip_of_(slip_of) {}
 
   std::string_view name() const override { return "friction"; }
   int stencils() const override { return static_cast<int>(groups_.size()); }
@@ -24,7 +25,7 @@ class Friction final : public Effect {
   /// solves only.
   void freeze(const std::vector<ContactPoint>& points, const Vector& x, const Frames& frames,
               const FrictionHistory& history) {
-    set_spots(friction_spots(rod_, rubbing_points(rod_, points), x, frames, history));
+    set_spots(friction_spots(rod_, rubbing_points(rod_, points), x, frames, history, slip_of_));
   }
   void set_spots(std::vector<FrictionSpot> spots);
   const std::vector<FrictionSpot>& spots() const { return spots_; }
@@ -57,6 +58,7 @@ class Friction final : public Effect {
   Rod rod_;
   const Contact& contact_;
   double coefficient_;
+  SlipOf slip_of_;
   std::vector<FrictionSpot> spots_;
   std::vector<Group> groups_;
 };

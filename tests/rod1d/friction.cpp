@@ -42,8 +42,8 @@ struct TwoStrands {
     middle = {rod.arc_length()[each / 2], rod.arc_length()[each + 2 + each / 2], 0.01, {}};
   }
   bool first(int node) const { return node <= each; }
-  FrictionSpot spot_at(const Vector& now) const {
-    return friction_spots(rod, {middle}, now, carried_frames(rod, history.frames, now), history)
+  FrictionSpot spot_at(const Vector& now, SlipOf of = SlipOf::surface) const {
+    return friction_spots(rod, {middle}, now, carried_frames(rod, history.frames, now), history, of)
         .front();
   }
   void spin(Vector& now, bool strand_a, double angle) const {
@@ -105,6 +105,22 @@ TEST_CASE("slip of two strands: pushed along, spun, rolled, and moved together")
     }
     CHECK(strands.spot_at(now).slip.norm() < 1e-12);
   }
+}
+
+TEST_CASE("slip of centerlines: pushed along, but not spun") {
+  const TwoStrands strands(0.7, 0.05);
+  Vector now = strands.x;
+  strands.spin(now, true, 0.1);
+  const FrictionSpot spun = strands.spot_at(now, SlipOf::centerline);
+  CHECK(spun.slip.norm() < 1e-12);
+  CHECK(spun.gradient.bottomRows<2>().norm() == 0);
+  for (int i = 0; i <= TwoStrands::each; ++i) now[3 * i] += 0.2;
+  const FrictionSpot pushed = strands.spot_at(now, SlipOf::centerline);
+  CHECK(pushed.slip[0] == Approx(0.2).epsilon(0.02));
+  CHECK(std::abs(pushed.slip[1]) < 0.005);
+  // Force in one direction, and none that loads twist or bends about the centerline.
+  CHECK(pushed.gradient.topRows<3>().col(0).norm() == Approx(1));
+  CHECK(pushed.gradient.middleRows<6>(3).norm() == 0);
 }
 
 TEST_CASE("parallel strands that turn against each other like wheels roll without slip") {

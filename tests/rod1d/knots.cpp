@@ -188,6 +188,29 @@ TEST_CASE("301 nodes from ebar 225 to 0 lie below the dynamic peers, within thei
   }
 }
 
+TEST_CASE("301 nodes, mu = 0.3: with the peers' friction, of centerlines, the peers' tension",
+          "[.long]") {
+  RodParameters parameters = rod(312.5, 300, {225, 30}, 1);
+  parameters.friction = 0.3;
+  parameters.twist = true;
+  parameters.finish_turns = false;
+  const RodResult surfaces = run_rod(parameters);
+  parameters.friction_at_surface = false;
+  const RodResult centerlines = run_rod(parameters);
+  for (const RodResult* result : {&surfaces, &centerlines}) {
+    INFO(result->outcome.reason);
+    REQUIRE(result->outcome.status == PathStatus::finished);
+  }
+  for (const auto& [ebar, peer] :
+       {std::pair{100, 0.0027}, {75, 0.0047}, {50, 0.0104}, {40, 0.0173}, {30, 0.0309}}) {
+    const double tension = tbar(at(centerlines, ebar).tension);
+    INFO("ebar " << ebar << ": " << tension << ", " << tbar(at(surfaces, ebar).tension));
+    CHECK(tension == Approx(peer).epsilon(0.12));
+    // Surfaces rub less: strands that may spin give way.
+    CHECK(at(surfaces, ebar).tension < at(centerlines, ebar).tension);
+  }
+}
+
 TEST_CASE("equal segments of D/2, D/4 and D/8 and nodes that follow agree in tension", "[.long]") {
   const double ebar = GENERATE(200.0, 100.0, 50.0, 25.0, 12.0);
   const double length = ebar < 30 ? 42.17 : 266.6;
