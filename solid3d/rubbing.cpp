@@ -78,6 +78,10 @@ NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& gues
                             const NewtonOptions& options, double scale,
                             const NewtonObserver& observer) {
   Attempts attempts(system, rubbing, options, scale, observer);
+  if (rubbing.prescribed()) {
+    attempts.coupled(guess, {.damped = true});
+    return attempts.result;
+  }
   if (attempts.coupled(guess, {.damped = true, .most_growth = 0, .short_step = short_step * scale}))
     return attempts.result;
   attempts.frozen(guess, few_first);

@@ -19,6 +19,8 @@ class Rubbing final : public FollowingForces {
   void freeze(const Vector& x) override;
   void add_change(const Vector& dx, Vector& gradient) const override;
   const Vector& frozen_at() const { return frozen_at_; }
+  /// Tractions are those that were handed to the start.
+  bool prescribed() const { return effects_.friction->prescribes(); }
   /// The last accepted state.
   const Vector& from() const { return accepted_.back().x; }
 

@@ -53,12 +53,21 @@ NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
                              : solve_frictionless(best_guess(guess, ebar));
   };
   NewtonResult result = attempt();
-  // A tight start overlaps by more than stiff contact can push out at once.
-  for (int i = 0; !result.ok() && relaxing_ && effects_.contact && i < softer_starts; ++i) {
-    effects_.contact->law().stiffness *= 0.1;
+  const auto again = [&] {
     const NewtonResult failed = std::move(result);
     result = attempt();
     result.count_on(failed);
+  };
+  // Tractions that nothing sticks to may leave a knot unstable.
+  if (!result.ok() && relaxing_ && effects_.friction && effects_.friction->prescribes()) {
+    for (const SolidEffects* effects : {&effects_, &whole_effects_})
+      if (effects->friction) effects->friction->let_slip();
+    again();
+  }
+  // A tight start overlaps by more than stiff contact can push out at once.
+  for (int i = 0; !result.ok() && relaxing_ && effects_.contact && i < softer_starts; ++i) {
+    effects_.contact->law().stiffness *= 0.1;
+    again();
   }
   return result;
 }
@@ -99,7 +108,7 @@ NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
 
 NewtonResult SolidModel::solve_with_friction(const Vector& guess) {
   NewtonResult result = solve_rubbing(guess);
-  if (result.ok()) return result;
+  if (result.ok() || effects_.friction->prescribes()) return result;
   const NewtonResult tried = std::move(result);
   result = solve_with_friction_frozen(guess);
   result.count_on(tried);

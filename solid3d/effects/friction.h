@@ -52,6 +52,9 @@ class Friction final : public Effect {
   /// the nearest places. For a start, to which contact has been refreshed last: what moves while it
   /// is relaxed is not what has rubbed. Nothing is dissipated then.
   void prescribe(std::vector<Rub> rubs, const Vector& start);
+  bool prescribes() const { return !prescribed_.empty(); }
+  /// Slip counts from now on, from the elastic slips that were prescribed.
+  void let_slip() { prescribed_.clear(); }
   /// What is remembered, as vectors at the newest accepted state x.
   std::vector<Rub> rubs(const Vector& x) const;
 

@@ -100,3 +100,20 @@ TEST_CASE("with friction, too, a finer mesh finds a coarse one's state as by a p
   CHECK(std::abs(coarse.tension() - path) > 0.005 * path);
   CHECK(found.tension() == Approx(path).epsilon(0.001));
 }
+
+TEST_CASE(
+    "a figure-eight that is unstable while nothing sticks begins with its rod's friction too") {
+  rod1d::RodParameters parameters;
+  parameters.length = length;
+  parameters.knot = "figure-eight";
+  parameters.from_straight = true;
+  parameters.friction = friction;
+  parameters.twist = true;
+  parameters.path.waypoints = {28, 24};
+  parameters.path.record = {24};
+  const rod1d::RodState rod = rod1d::run_rod(parameters).states.at(0);
+  const Tightened begun = from_rod(rod, 12, {24});
+  CHECK(begun.result.symmetric);
+  CHECK(begun.tension() < rod.tension);
+  CHECK(begun.tension() > 0.8 * rod.tension);
+}
