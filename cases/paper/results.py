@@ -255,7 +255,7 @@ machine did.
 {chr(10).join(parts)}
 ## What does not agree, or is not there
 
-- The coarse sections (12 cells; 32 for the curvature) are not the paper's mesh of about 100 cells:
+- The coarse sections (12 cells; 32 for the loose knot and the curvature) are not the paper's mesh of about 100 cells:
   `--set solid3d.section_elements=108` is. What the section costs in accuracy is in the README, "Accuracy against time".
 - The rod of the tight knots is far above the solid. It is what a rod of round, unyielding sections does: the
   comparison says where it ends to be valid.
