@@ -33,9 +33,10 @@ class Rubbing final : public FollowingForces {
 /// Newton steps with the whole tangent. From a guess whose first step is short, damped ones; they
 /// are given up where one is not. Else a few steps with the last state's friction come first: the
 /// contact forces of a poor guess are too rough to begin with. Then full ones, then damped ones
-/// where these fail; where both fail, as many of the few as it takes, and again. `options` is what
-/// a frictionless solve would take; tolerances and iterations are replaced by those of friction,
-/// relative to the force `scale` [E D^2].
+/// where these fail; where both fail, as many of the few as it takes, and again. Prescribed
+/// tractions of a start store no energy: damped steps alone. `options` is what a frictionless solve
+/// would take; tolerances and iterations are replaced by those of friction, relative to the force
+/// `scale` [E D^2].
 NewtonResult newton_rubbing(System& system, Rubbing& rubbing, const Vector& guess,
                             const NewtonOptions& options, double scale,
                             const NewtonObserver& observer);
