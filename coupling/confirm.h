@@ -20,7 +20,8 @@ struct Confirmation {
 
 /// Relaxes the states at solid3d.confirm_at on meshes of solid3d.confirm_elements cells a section,
 /// laid out for the knot as it is there. Equilibria without friction do not depend on the path, so
-/// each is what a path on the finer mesh would have found. Stops at the first interruption.
+/// each is what a path on the finer mesh would have found; with friction each takes over how the
+/// recorded state rubs. Stops at the first interruption.
 std::vector<Confirmation> confirm(const Scene& scene, const solid3d::Mesh& mesh,
                                   Recorder& recorder);
 

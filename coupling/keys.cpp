@@ -146,7 +146,7 @@ const std::vector<Key>& all_keys() {
       {"rod1d.stretch_stiffness_factor", number, "", {1, 1e4}, {}, "1", "",
        "Stretching stiffness over that of the section: 100 makes the rod almost inextensible"},
       {"rod1d.friction_slip", word, "", {}, {"surface", "centerline"}, R"("surface")", "",
-       "What friction of the rod resists: slip of the surfaces, or of the centerlines, as in codes whose friction knows no spin", Fineness::choice},
+       "What friction of the rod resists: slip of the surfaces, or of the centerlines, as in codes whose friction knows no spin"},
       {"rod1d.penetration", number, "", {1e-6, 0.1}, {}, "0.002", "",
        "Largest overlap of strands aimed at, in D", Fineness::size},
 

@@ -217,7 +217,8 @@ struct Dynamics::Package {
     if (!my.factor(at.t, mapped(at.current), at.gamma)) return SUNLS_LUFACT_FAIL;
     const auto right = mapped(b);
     const Vector b_x = right.head(my.n);
-    Vector r = my.mass.cwiseProduct(right.tail(my.n)) - at.gamma * my.stiffness_times(b_x);
+    Vector r =
+        my.mass.cwiseProduct(right.tail(my.n)) - at.gamma * my.body.assembler.hessian().times(b_x);
     const Vector dv = my.cholesky.solve(r);
     auto out = mapped(z);
     out.tail(my.n) = dv;
@@ -261,28 +262,9 @@ struct Dynamics::Package {
       matrix = K;
     }
     for (size_t k = 0; k < K.value.size(); ++k) matrix.value[k] = gamma * gamma * K.value[k];
-    for (int j = 0; j < n; ++j) {
-      const auto begin = K.row.begin() + K.column_start[j];
-      const auto diagonal = std::lower_bound(begin, K.row.begin() + K.column_start[j + 1], j);
-      matrix.value[static_cast<size_t>(diagonal - K.row.begin())] +=
-          (1 + gamma * body.damping) * mass[j];
-    }
+    for (int j = 0; j < n; ++j) matrix.value[K.diagonal(j)] += (1 + gamma * body.damping) * mass[j];
     ++factorisations;
     return cholesky.factor(matrix);
-  }
-
-  /// K times a vector of unknowns, from the lower triangle.
-  Vector stiffness_times(const Vector& u) const {
-    const SymmetricMatrix& K = body.assembler.hessian();
-    Vector product = Vector::Zero(n);
-    for (int j = 0; j < n; ++j)
-      for (int k = K.column_start[j]; k < K.column_start[j + 1]; ++k) {
-        const int i = K.row[k];
-        if (i < j) continue;
-        product[i] += K.value[k] * u[j];
-        if (i > j) product[j] += K.value[k] * u[i];
-      }
-    return product;
   }
 
   void measure() {

@@ -7,7 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "mechanics/sparse_cholesky.h"
+#include "mechanics/for_each.h"
+#include "mechanics/symmetric_matrix.h"
 
 // BLAS and LAPACK, column-major, lower triangles.
 extern "C" {
@@ -18,41 +19,24 @@ void dtrsm_(const char* side, const char* uplo, const char* trans, const char* d
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
             const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
             const double* beta, double* c, const int* ldc);
-void dtrsv_(const char* uplo, const char* trans, const char* diag, const int* n, const double* a,
-            const int* lda, double* x, const int* incx);
-void dgemv_(const char* trans, const int* m, const int* n, const double* alpha, const double* a,
-            const int* lda, const double* x, const int* incx, const double* beta, double* y,
-            const int* incy);
 }
 
 namespace bight {
 
 namespace {
 
-/// Columns that a panel eliminates at a time; tiles of products and of triangular solves.
-constexpr int block = 32, tile = 96, tall_tile = 256, solve_tile = 512;
+/// Columns that a panel eliminates at a time; tiles of products and of solves with a panel.
+constexpr int block = 32, tile = 96, tall_tile = 256;
 /// Share of all flops that a subtree may have to be factored by one thread.
 constexpr double subtree_share = 0.1;
 /// Tiles of a front are shared by the threads from this many flops on.
 constexpr double parallel_flops = 4e6;
 
 constexpr double one = 1, minus_one = -1;
-constexpr int unit_stride = 1;
 
 double front_flops(double rows, double columns) {
   const double below = rows - columns;
   return columns * columns * columns / 3 + below * columns * columns + below * below * columns;
-}
-
-/// Runs f(i) for i in [0, count), where asked for by the threads of the region around.
-template <class F>
-void for_each(int count, bool parallel, F&& f) {
-  if (!parallel || count < 2) {
-    for (int i = 0; i < count; ++i) f(i);
-    return;
-  }
-#pragma omp taskloop grainsize(1) default(shared)
-  for (int i = 0; i < count; ++i) f(i);
 }
 
 inline void add(const double* from, double* to, int count) {
@@ -291,76 +275,6 @@ bool Multifrontal::factor(const SymmetricMatrix& matrix, double shift) {
   if (!positive)
     for (int s = 0; s < supernodes(); ++s) update_[s].reset();
   return positive;
-}
-
-/// y <- L^-1 y for the columns of a supernode, from the `part` of its children: what their columns
-/// take from the rows below.
-void Multifrontal::substitute_forward(int s, Vector& y, double* part, bool parallel) const {
-  const int height = rows(s), width = columns(s), below = height - width;
-  const double* panel = L_.data() + panel_[s];
-  double* own = y.data() + nodes_.first_column[s];
-  double* rest = part + part_begin(s);
-  std::fill(rest, rest + below, 0.0);
-  for (const int child : children_[s]) {
-    const double* from = part + part_begin(child);
-    for (std::int64_t r = run_begin_[child]; r < run_begin_[child + 1]; ++r)
-      for (int k = 0; k < runs_[r].length; ++k) {
-        const int to = runs_[r].to + k;
-        if (to < width)
-          own[to] -= from[runs_[r].from + k];
-        else
-          rest[to - width] += from[runs_[r].from + k];
-      }
-  }
-  dtrsv_("L", "N", "N", &width, panel, &height, own, &unit_stride);
-  for_each((below + solve_tile - 1) / solve_tile, parallel, [&](int t) {
-    const int first = t * solve_tile, count = std::min(solve_tile, below - first);
-    dgemv_("N", &count, &width, &one, panel + width + first, &height, own, &unit_stride, &one,
-           rest + first, &unit_stride);
-  });
-}
-
-/// y <- L^-T y for the columns of a supernode.
-void Multifrontal::substitute_backward(int s, Vector& y, double* part, bool parallel) const {
-  const int height = rows(s), width = columns(s), below = height - width;
-  const double* panel = L_.data() + panel_[s];
-  double* own = y.data() + nodes_.first_column[s];
-  double* rest = part + part_begin(s);
-  const int* row = nodes_.row.data() + nodes_.begin[s] + width;
-  for (int i = 0; i < below; ++i) rest[i] = y[row[i]];
-  if (below > 0)
-    for_each((width + tile - 1) / tile, parallel, [&](int t) {
-      const int first = t * tile, count = std::min(tile, width - first);
-      dgemv_("T", &below, &count, &minus_one, panel + width + std::int64_t{height} * first, &height,
-             rest, &unit_stride, &one, own + first, &unit_stride);
-    });
-  dtrsv_("L", "T", "N", &width, panel, &height, own, &unit_stride);
-}
-
-Vector Multifrontal::solve(const Vector& right_hand_side) const {
-  const int n = static_cast<int>(nodes_.permutation.size());
-  Vector y(n);
-  for (int i = 0; i < n; ++i) y[i] = right_hand_side[nodes_.permutation[i]];
-  const Buffer part(new double[static_cast<size_t>(part_begin(supernodes()))]);
-  const int subtrees = static_cast<int>(subtrees_.size());
-#pragma omp parallel
-#pragma omp single
-  {
-    for_each(subtrees, true, [&](int i) {
-      for (int s = subtrees_[i].first; s <= subtrees_[i].second; ++s)
-        substitute_forward(s, y, part.get(), false);
-    });
-    for (const int s : top_) substitute_forward(s, y, part.get(), true);
-    for (auto s = top_.rbegin(); s != top_.rend(); ++s)
-      substitute_backward(*s, y, part.get(), true);
-    for_each(subtrees, true, [&](int i) {
-      for (int s = subtrees_[i].second; s >= subtrees_[i].first; --s)
-        substitute_backward(s, y, part.get(), false);
-    });
-  }
-  Vector x(n);
-  for (int i = 0; i < n; ++i) x[nodes_.permutation[i]] = y[i];
-  return x;
 }
 
 }  // namespace bight

@@ -5,11 +5,9 @@
 #include <mutex>
 #include <vector>
 
-#include "mechanics/types.h"
+#include "mechanics/symmetric_matrix.h"
 
 namespace bight {
-
-struct SymmetricMatrix;
 
 /// Pattern of a Cholesky factor by supernodes: runs of columns that share their rows. Numbered in
 /// a postorder of the elimination tree, so that the descendants of a supernode are those just

@@ -26,11 +26,7 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
     system.analysed_pattern = system.assembler.pattern_version();
   }
   double largest = 0;
-  for (int j = 0; j < H.size(); ++j) {
-    const auto begin = H.row.begin() + H.column_start[j];
-    const auto diagonal = std::lower_bound(begin, H.row.begin() + H.column_start[j + 1], j);
-    largest = std::max(largest, std::abs(H.value[static_cast<size_t>(diagonal - H.row.begin())]));
-  }
+  for (int j = 0; j < H.size(); ++j) largest = std::max(largest, std::abs(H.value[H.diagonal(j)]));
   const double first = std::clamp(0.1 * g.cwiseAbs().maxCoeff() / options.largest_move,
                                   1e-11 * largest, 1e-4 * largest);
   double shift = std::min(options.shift_decay * system.shift, first);

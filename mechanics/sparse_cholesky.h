@@ -2,20 +2,10 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
-#include "mechanics/types.h"
+#include "mechanics/symmetric_matrix.h"
 
 namespace bight {
-
-/// A symmetric sparse matrix by compressed columns: the lower triangle, rows ascending. Entries
-/// above the diagonal may be present (whole diagonal blocks) and are ignored.
-struct SymmetricMatrix {
-  std::vector<int> column_start;
-  std::vector<int> row;
-  std::vector<double> value;
-  int size() const { return static_cast<int>(column_start.size()) - 1; }
-};
 
 /// Natural: keep the order of the unknowns (a rod without contact is banded along its length).
 /// Minimum degree: AMD on the pattern (a rod's contact couples far parts of it), quickly found.

@@ -138,6 +138,7 @@ StepRow TimedRod::accept(const NewtonResult& result, double ebar) {
 RodState TimedRod::state() {
   if (effects_.contact) effects_.contact->refresh(motion_->x());
   RodState state = seen(rod_, motion_->x(), source_, effects_.contact);
+  state.rubs = rubs(rod_, history_);
   state.ebar = ends_.ebar(motion_->time());
   state.tension = tension();
   state.energy_by_effect = motion_->energy_by_effect();

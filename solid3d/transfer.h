@@ -11,7 +11,7 @@ namespace bight::solid3d {
 /// ones go on beyond their rim; along the rod a cubic through the four layers around.
 ///
 /// `from`, `nodes`: a mesh and the positions of its nodes [D]. Both meshes have the same length and
-/// diameter. Of a frictionless rod alone: what has rubbed where is not carried over.
+/// diameter. How it rubs there is carried over by SolidParameters::rubs.
 std::vector<Vector3> transferred(const Mesh& from, const std::vector<Vector3>& nodes,
                                  const Mesh& to);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rod1d/touching_points.h"
+
 namespace bight::rod1d {
 
 namespace {
@@ -21,150 +23,13 @@ constexpr double pattern_gap = 0.03;
 /// Gap below which no iteration may bring a pair [D].
 constexpr double deepest_gap = -0.15;
 
-/// Positions of the quadrature points of a segment, a row each.
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-/// nodes: the four around the segment.
-void place(const SegmentSamples& samples, const double* nodes, Points& points) {
-  points.noalias() =
-      samples.value.lazyProduct(Eigen::Map<const Eigen::Matrix<double, 3, 4>>(nodes).transpose());
-}
-
-/// Squares of the distances of the rows of q from `first` on to p.
-template <class Squares>
-void squares_to(const Vector3& p, const Points& q, int first, Squares&& out) {
-  const auto n = out.size();
-  out = (q.col(0).segment(first, n).array() - p.x()).square() +
-        (q.col(1).segment(first, n).array() - p.y()).square() +
-        (q.col(2).segment(first, n).array() - p.z()).square();
-}
-
 Eigen::Matrix<double, 24, 1> gather(const Vector& x, const std::array<int, 24>& coordinates) {
   Eigen::Matrix<double, 24, 1> values;
   for (int k = 0; k < 24; ++k) values[k] = x[coordinates[k]];
   return values;
 }
 
-/// Calls `visit(i, j, d, distance)` for the points that touch, d from j to i. x: nodes of a, b.
-template <class Visit>
-void for_touching(std::span<const PointRun> runs, const double* x, const SegmentSamples& a,
-                  const SegmentSamples& b, const ContactLaw& law, Visit&& visit) {
-  thread_local Points p, q;
-  thread_local Eigen::ArrayXd square;
-  place(a, x, p);
-  place(b, x + 12, q);
-  square.resize(std::max<Eigen::Index>(square.size(), b.size()));
-  const double reach = 1 + 0.5 * law.onset, limit = reach * reach;
-  for (const PointRun& run : runs) {
-    const int n = run.last - run.first + 1;
-    const Vector3 from = p.row(run.i);
-    squares_to(from, q, run.first, square.head(n));
-    for (int k = 0; k < n; ++k)
-      if (square[k] < limit)
-        visit(run.i, run.first + k, Vector3(from - q.row(run.first + k).transpose()),
-              std::sqrt(square[k]));
-  }
-}
-
-using Block = Eigen::Matrix<double, 1, 9>;  ///< a 3 x 3 block, column by column
-
-/// What presses on one point: force and stiffness.
-struct PointSums {
-  bool touches = false;
-  Vector3 force;
-  Matrix3 stiffness;
-
-  void add(const Vector3& f, const Matrix3& k) {
-    if (!touches) force.setZero(), stiffness.setZero();
-    touches = true;
-    force += f;
-    stiffness += k;
-  }
-};
-
-/// Sums over the points of one segment, spread over its four nodes by the weights w of each.
-struct NodeSums {
-  Eigen::Matrix<double, 3, 4> force = Eigen::Matrix<double, 3, 4>::Zero();
-  Eigen::Matrix<double, 16, 9> stiffness = Eigen::Matrix<double, 16, 9>::Zero();
-
-  void add(const Eigen::Vector4d& w, const PointSums& sums, Order order) {
-    force += sums.force * w.transpose();
-    if (order < Order::hessian) return;
-    const Eigen::Matrix4d ww = w * w.transpose();
-    stiffness += Eigen::Map<const Eigen::Matrix<double, 16, 1>>(ww.data()) *
-                 Eigen::Map<const Block>(sums.stiffness.data());
-  }
-};
-
 }  // namespace
-
-void contact_element(const Eigen::Matrix<double, 24, 1>& x, const SegmentSamples& a,
-                     const SegmentSamples& b, std::span<const PointRun> runs, const ContactLaw& law,
-                     Order order, ElementSlot& slot) {
-  thread_local std::vector<PointSums> on_q;
-  const double weight = a.spacing * b.spacing;
-  if (order == Order::energy) {
-    for_touching(runs, x.data(), a, b, law, [&](int, int, const Vector3&, double distance) {
-      slot.energy += weight * law.energy(distance - 1);
-    });
-    return;
-  }
-
-  // Per pair of points: d gap/dp = n, d2 gap/dp dp = (I - n n')/distance, the opposite for q. They
-  // are summed by points first, which share their nodes' weights; `across` by the point i on a, by
-  // nodes of b (rows) and the entries of a block.
-  const int n = b.size();
-  if (on_q.size() < static_cast<size_t>(n)) on_q.resize(n);
-  for (int j = 0; j < n; ++j) on_q[j].touches = false;
-  NodeSums on_a, on_b;
-  PointSums on_p;
-  Eigen::Matrix<double, 4, 9> across_p;
-  Eigen::Matrix<double, 4, 36> across = Eigen::Matrix<double, 4, 36>::Zero();
-  int current = -1;
-  const auto leave_point = [&] {
-    if (current < 0) return;
-    const Eigen::Vector4d w = a.value.row(current);
-    on_a.add(w, on_p, order);
-    if (order == Order::hessian)
-      across += w * Eigen::Map<const Eigen::Matrix<double, 1, 36>>(across_p.data());
-  };
-  for_touching(runs, x.data(), a, b, law, [&](int i, int j, const Vector3& d, double distance) {
-    if (i != current) {
-      leave_point();
-      current = i;
-      on_p.touches = false;
-      across_p.setZero();
-    }
-    const double gap = distance - 1;
-    slot.energy += weight * law.energy(gap);
-    const Vector3 n = d / distance;
-    const double slope = weight * law.slope(gap), curvature = weight * law.curvature(gap);
-    const Matrix3 m = (curvature - slope / distance) * n * n.transpose() +
-                      (slope / distance) * Matrix3::Identity();
-    on_p.add(slope * n, m);
-    on_q[j].add(-slope * n, m);
-    across_p += b.value.row(j).transpose() * Eigen::Map<const Block>(m.data());
-  });
-  slot.empty = current < 0;
-  if (slot.empty) return;
-  leave_point();
-  for (int j = 0; j < n; ++j)
-    if (on_q[j].touches) on_b.add(b.value.row(j).transpose(), on_q[j], order);
-
-  Eigen::Map<Eigen::Matrix<double, 3, 8>> gradient(slot.gradient);
-  gradient.leftCols<4>() = on_a.force;
-  gradient.rightCols<4>() = on_b.force;
-  if (order == Order::gradient) return;
-  Eigen::Map<Eigen::Matrix<double, 24, 24>> hessian(slot.hessian);
-  for (int k = 0; k < 4; ++k)
-    for (int l = 0; l < 4; ++l)
-      for (int c = 0; c < 9; ++c) {
-        const int row = 3 * k + c % 3, column = 3 * l + c / 3;
-        hessian(row, column) = on_a.stiffness(4 * l + k, c);
-        hessian(12 + row, 12 + column) = on_b.stiffness(4 * l + k, c);
-        hessian(row, 12 + column) = hessian(12 + column, row) = -across(k, 4 * c + l);
-      }
-}
 
 Contact::Contact(const Rod& rod, double spacing)
     : nodes_(rod.nodes()),
@@ -172,15 +37,6 @@ Contact::Contact(const Rod& rod, double spacing)
       spacing_(spacing),
       samples_(rod.segments()),
       arc_(rod.arc_length()) {}
-
-SegmentSamples::SegmentSamples(const CurveSegment& curve, int count, double begin)
-    : value(count, 4), arc(count), spacing(curve.length() / count) {
-  for (int i = 0; i < count; ++i) {
-    const double s = (i + 0.5) * spacing;
-    value.row(i) = Eigen::Map<const Eigen::RowVector4d>(curve.weights(s).value.data());
-    arc[i] = begin + s;
-  }
-}
 
 /// Quadrature points are made where they are needed: most of a long rod is by itself.
 void Contact::make_samples(int k) {

@@ -39,8 +39,6 @@ void Friction::freeze(const Vector& x, const Vector& start) {
     spot.limit_by_gap = contact_.law().curvature(sample.gap) / contact_.law().slope(sample.gap);
     spot.own = contact_.own_weights(sample);
     spot.facing = surface.weights(sample.facing.x(), sample.facing.y());
-    spot.s = arc_length(sample);
-    spot.s_facing = surface.arc_length_at(sample.facing.y());
     spot.coordinates = contact_.stencil(sample);
     spot.here = surface.evaluate(x, spot.own);
     spot.there = surface.evaluate(x, spot.facing);
@@ -163,14 +161,14 @@ void Friction::prescribe(std::vector<Rub> rubs, const Vector& start) {
     if (sample.faces) memory_.elastic_slip[sample.id] = prescribed(sample, start);
 }
 
-double Friction::arc_length(const Contact::Sample& sample) const {
+std::pair<double, double> Friction::arc_lengths(const Contact::Sample& sample) const {
   const ContactSurface& surface = contact_.surface();
-  return surface.arc_length_at(surface.along(sample.patch) + sample.local.y());
+  return {surface.arc_length_at(surface.along(sample.patch) + sample.local.y()),
+          surface.arc_length_at(sample.facing.y())};
 }
 
 Vector2 Friction::prescribed(const Contact::Sample& sample, const Vector& start) const {
-  const double s = arc_length(sample);
-  const double s_facing = contact_.surface().arc_length_at(sample.facing.y());
+  const auto [s, s_facing] = arc_lengths(sample);
   const auto first = std::lower_bound(prescribed_.begin(), prescribed_.end(), s - same_place,
                                       [](const Rub& rub, double arc) { return rub.s_a < arc; });
   Vector3 nearest = Vector3::Zero();
@@ -185,11 +183,12 @@ Vector2 Friction::prescribed(const Contact::Sample& sample, const Vector& start)
 
 std::vector<Rub> Friction::rubs(const Vector& x) const {
   std::vector<Rub> list;
-  for (const Spot& spot : spots_) {
-    const auto found = memory_.elastic_slip.find(spot.sample);
-    if (found == memory_.elastic_slip.end()) continue;
-    list.push_back({spot.s, spot.s_facing,
-                    tangents(contact_.surface().evaluate(x, spot.own)) * found->second});
+  for (const Contact::Sample& sample : contact_.samples()) {
+    const auto found = memory_.elastic_slip.find(sample.id);
+    if (!sample.faces || found == memory_.elastic_slip.end()) continue;
+    const auto [s, s_facing] = arc_lengths(sample);
+    const SurfacePoint at = contact_.surface().evaluate(x, contact_.own_weights(sample));
+    list.push_back({s, s_facing, tangents(at) * found->second});
   }
   return list;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "mechanics/friction_law.h"
@@ -49,13 +50,14 @@ class Friction final : public Effect {
 
   /// Until the next accepted state, tractions do not follow slip: their directions, and their sizes
   /// against the normal force, are those of the elastic slips that another model of the knot had at
-  /// the nearest places. For a start, to which contact has been refreshed last: what moves while it
-  /// is relaxed is not what has rubbed. Nothing is dissipated then.
+  /// the nearest places of the one rod. For a start, to which contact has been refreshed last: what
+  /// moves while it is relaxed is not what has rubbed. Nothing is dissipated then.
   void prescribe(std::vector<Rub> rubs, const Vector& start);
   bool prescribes() const { return !prescribed_.empty(); }
   /// Slip counts from now on, from the elastic slips that were prescribed.
   void let_slip() { prescribed_.clear(); }
-  /// What is remembered, as vectors at the newest accepted state x.
+  /// What is remembered, as vectors at the newest accepted state x, to which contact has been
+  /// refreshed last.
   std::vector<Rub> rubs(const Vector& x) const;
 
   const FrictionMemory& memory() const { return memory_; }
@@ -68,8 +70,7 @@ class Friction final : public Effect {
  private:
   using Tangents = Eigen::Matrix<double, 3, 2>;
   struct Spot {
-    int sample;          ///< its id
-    double s, s_facing;  ///< undeformed arc lengths of both places [D]
+    int sample;  ///< its id
     double limit;
     double limit_by_gap;  ///< dlimit/dgap over limit [1/D]
     PatchWeights own, facing;
@@ -89,7 +90,8 @@ class Friction final : public Effect {
 
   FrictionLaw law(const Spot& spot) const { return FrictionLaw::with_limit(spot.limit); }
   Element<2> traction(const Vector& x, const Spot& spot) const;
-  double arc_length(const Contact::Sample& sample) const;
+  /// Undeformed arc lengths of a sample and of what it faces [D].
+  std::pair<double, double> arc_lengths(const Contact::Sample& sample) const;
   /// The elastic slip that is prescribed for the places nearest to a sample and what it faces, in
   /// its tangents at the start; zero where none are near.
   Vector2 prescribed(const Contact::Sample& sample, const Vector& start) const;
