@@ -84,9 +84,10 @@ PathOutcome follow_forces(const ForcePath& path, ForceModel& model, const PathOb
               in_words("the step became too small", force, ebar) + ": " + steps.cut_reason);
         continue;
       }
-      tension = steps.accept(result, target, target - ebar).tension;
+      const StepRow row = steps.accept(result, target, target - ebar);
+      tension = row.tension;
       ebar = target;
-      step = std::min(path.max_step, step_growth(result.iterations) * step);
+      step = std::min(path.max_step, step_growth(row.newton_iterations, row.cutbacks > 0) * step);
     }
     observer.on_record(ebar);
   }

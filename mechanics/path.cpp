@@ -34,17 +34,18 @@ bool recorded(const Path& path, double ebar) {
 PathOutcome follow(const Path& path, PathModel& model, const PathObserver& observer,
                    const PathProgress& from) {
   PathSteps steps(model, observer, from.so_far);
+  // By how much the next step may be longer; 0 where there is no equilibrium.
   const auto try_step = [&](double ebar, double increment) {
     const NewtonResult result = steps.solve(ebar);
-    if (!result.ok()) return -1;
-    steps.accept(result, ebar, increment);
+    if (!result.ok()) return 0.0;
+    const StepRow row = steps.accept(result, ebar, increment);
     if (recorded(path, ebar)) observer.on_record(ebar);
-    return result.iterations;
+    return step_growth(row.newton_iterations, row.cutbacks > 0);
   };
 
   const bool begun = from.leg > 0;
   double ebar = begun ? from.ebar : path.waypoints.front();
-  if (!begun && try_step(ebar, 0) < 0)
+  if (!begun && try_step(ebar, 0) == 0)
     return steps.stop(PathStatus::gave_up, "no equilibrium at the first ebar: " + steps.cut_reason);
 
   double step = begun ? from.step : path.max_step;
@@ -56,8 +57,8 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
         const double count = std::ceil(std::abs(stop - ebar) / step - same_ebar);
         const double increment = (stop - ebar) / std::max(1.0, count);
         const double target = count <= 1 ? stop : ebar + increment;
-        const int iterations = try_step(target, increment);
-        if (iterations < 0) {
+        const double growth = try_step(target, increment);
+        if (growth == 0) {
           step = 0.5 * std::abs(increment);
           if (step < path.min_step)
             return steps.stop(PathStatus::gave_up, "the step became smaller than " +
@@ -66,7 +67,7 @@ PathOutcome follow(const Path& path, PathModel& model, const PathObserver& obser
           continue;
         }
         ebar = target;
-        step = std::min(path.max_step, step_growth(iterations) * step);
+        step = std::min(path.max_step, growth * step);
         observer.on_progress({w, ebar, step, steps.outcome});
       }
   return steps.outcome;

@@ -54,10 +54,11 @@ class PathSteps {
 };
 
 /// By how much the step may grow after a solve. A cut is no verdict on the rest of the path: with
-/// friction a solve has more iterations than an easy one, and still went well.
-inline double step_growth(int iterations) {
+/// friction a solve has more iterations than an easy one, and still went well. So a hard step
+/// grows, too, unless it had to be cut.
+inline double step_growth(int iterations, bool cut) {
   constexpr int easy = 10, bearable = 25;
-  return iterations <= easy ? 1.5 : iterations <= bearable ? 1.2 : 1.0;
+  return iterations <= easy ? 1.5 : iterations <= bearable || !cut ? 1.2 : 1.0;
 }
 
 }  // namespace bight

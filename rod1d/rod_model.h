@@ -100,7 +100,7 @@ class RodModel final : public ForceModel {
   /// A turn about the axis does change the energy.
   bool inverts() const { return symmetry_ && symmetry_->kind() == TwoFold::Kind::inversion; }
   bool turned_by_itself() const { return acted_on() || !rod_.straight(); }
-  NewtonResult solve_rubbing(const Vector& guess, bool thorough);
+  NewtonResult solve_rubbing(const Vector& guess);
   NewtonResult solve_contact(Vector x);
 
   RodParameters parameters_;

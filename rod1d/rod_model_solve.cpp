@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "mechanics/coupled_newton.h"
+#include "mechanics/rubbing_newton.h"
 #include "rod1d/pin.h"
 #include "rod1d/rod_equations.h"
 
@@ -21,14 +21,30 @@ constexpr int most_motions = 20;
 /// By which a state that weight would leave is turned first, so that it does [rad].
 constexpr double slight_roll = 0.05;
 /// Solves of one step with contact stiffness and friction taken anew, at most.
-constexpr int max_passes = 12;
+constexpr int max_passes = 20;
+/// Of them, those whose friction is that of the solution before, and those after which it goes
+/// only half as far from pass to pass as before.
+constexpr int whole_passes = 3, shorter_after[] = {whole_passes, 7, 13};
 /// Residual over the force scale up to which a search that cannot go on has converged.
 constexpr double stalled_residual = 1e-3;
 /// Share of the tension that further solves may still change when friction has settled.
 constexpr double settled_change = 5e-4;
-/// Iterations with the last state's friction, which bring contact forces into range (where a few do
-/// not, many), and those with the whole tangent, at most.
-constexpr int few_first = 2, many_first = 30, most_coupled = 12;
+/// Of the iterations with the whole tangent. The minimisation that comes after them does the rest.
+constexpr int many_first = 30;
+constexpr RubbingLimits rubbing_limits{.few_first = 2,
+                                       .most_full = 12,
+                                       .first_force_tolerance = 1,
+                                       .energy_tolerance = 1e-5,
+                                       .force_tolerance = 0.1};
+
+/// How far friction goes in a pass from where it was frozen to the last solution. Where passes do
+/// not settle they mostly go back and forth.
+double relaxation(int pass) {
+  double part = 1;
+  for (const int after : shorter_after)
+    if (pass >= after) part *= 0.5;
+  return part;
+}
 
 }  // namespace
 
@@ -95,37 +111,33 @@ void RodModel::freeze(const Vector& x) {
 }
 
 /// Friction whose limits follow the normal forces, from a guess that is near: Newton steps with the
-/// whole tangent, after some with the last state's friction (the contact forces of a guess are too
-/// rough to begin with), a few or as many as it takes. The spots are left frozen where it ends.
-NewtonResult RodModel::solve_rubbing(const Vector& guess, bool thorough) {
-  struct Following final : FollowingForces {
-    explicit Following(RodModel& model) : model(model) {}
+/// whole tangent. The spots are left frozen where it ends.
+NewtonResult RodModel::solve_rubbing(const Vector& guess) {
+  struct Rubbing final : RubbingForces {
+    explicit Rubbing(RodModel& model) : model(model) {}
     void freeze(const Vector& x) override { model.freeze(x); }
+    void freeze_last() override {
+      model.source_ = model.before_.frames;
+      model.freeze(model.before_.x);
+    }
     void add_change(const Vector& dx, Vector& gradient) const override {
       model.effects_.friction->add_change(dx, gradient);
     }
     RodModel& model;
-  } following(*this);
+  } forces(*this);
   NewtonOptions options;
-  options.max_iterations = thorough ? many_first : few_first;
-  options.energy_tolerance = (thorough ? 1e-5 : 1e-2) * force_scale_;
-  options.force_tolerance = (thorough ? 0.01 : 1) * force_scale_;
+  options.max_iterations = many_first;
   options.largest_move = 1;
-  freeze(before_.x);
-  const NewtonResult begun = newton(equations_->system, guess, options);
-  options.max_iterations = most_coupled;
-  options.energy_tolerance = 1e-5 * force_scale_;
-  options.force_tolerance = 0.1 * force_scale_;
-  NewtonResult result = coupled_newton(equations_->system, following, begun.x, options);
-  result.count_on(begun);
-  return result;
+  source_ = before_.frames;
+  return newton_rubbing(equations_->system, forces, guess, options, rubbing_limits, force_scale_);
 }
 
 /// Equilibrium on the present nodes, with contact so stiff that strands overlap little. Without
 /// friction that is one minimisation, as a rule. Friction freezes the spots that rub and is solved
 /// again with those of the solution until the tension has settled. Mostly the first spots are those
 /// of a state that is nearly in equilibrium with its own friction; where that is not found they are
-/// those of the last accepted state, and more solves are needed.
+/// those of the last accepted state, and more solves are needed, at last with spots between those
+/// of the solutions (relaxed fixed-point iteration).
 NewtonResult RodModel::solve_contact(Vector x) {
   const double aimed = aimed_overlap * parameters_.penetration;
   double stiffness = effects_.contact ? effects_.contact->law().stiffness : 0;
@@ -135,30 +147,31 @@ NewtonResult RodModel::solve_contact(Vector x) {
   double tension = 0, change = 0;
   bool near = false;
   if (rubs_ && tension_ > 0) {
-    for (const bool thorough : {false, true}) {
-      source_ = before_.frames;
-      result = solve_rubbing(x, thorough);
-      iterations += result.iterations, factorisations += result.factorisations;
-      near = result.ok();
-      if (near) break;
-    }
+    NewtonResult rubbed = solve_rubbing(x);
+    iterations += rubbed.iterations, factorisations += rubbed.factorisations;
+    near = rubbed.ok();
     if (near) {
-      tension = grip_forces(rod_, result.gradient).tension();
-      x = result.x;
+      tension = grip_forces(rod_, rubbed.gradient).tension();
+      x = std::move(rubbed.x);
     } else {
       source_ = before_.frames;
     }
   }
+  Vector rubs_at = before_.x;
   for (int pass = 0; pass < max_passes; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
-    if (rubs_ && !(near && pass == 0)) freeze(pass == 0 ? before_.x : result.x);
+    const double part = relaxation(pass);
+    if (rubs_ && !(near && pass == 0)) {
+      if (pass > 0) rubs_at += part * (result.x - rubs_at);
+      freeze(rubs_at);
+    }
     result = solve_once(pass == 0 ? x : result.x);
     iterations += result.iterations, factorisations += result.factorisations;
     if (!result.ok() || !effects_.contact) break;
     const double last_change =
         std::abs(std::exchange(change, grip_forces(rod_, result.gradient).tension() - tension));
     tension += change;
-    const double little = settled_change * force_scale_;
+    const double little = settled_change * part * force_scale_;
     // The changes fall like a geometric series, at last: what is left is its rest. A small change
     // after a large one may be an overshoot.
     const double left = change * change / std::max(last_change - std::abs(change), 1e-30);

@@ -35,9 +35,8 @@ void SolidModel::set_in_motion() {
   motion_ = std::make_unique<SolidMotion>(
       system_, effects_.list, mass, symmetry_ ? 2 : 1, motion,
       [this](const Vector& guess) {
-        return effects_.friction
-                   ? newton_rubbing(system_, rubbing_, guess, options(), tension_, observer_)
-                   : newton(system_, guess, options(), observer_);
+        return effects_.friction ? rubbing_.solve(system_, guess, options(), tension_, observer_)
+                                 : newton(system_, guess, options(), observer_);
       },
       newest(), Vector::Zero(newest().size()));
 }

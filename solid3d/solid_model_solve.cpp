@@ -98,10 +98,10 @@ NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
 }
 
 NewtonResult SolidModel::solve_rubbing(const Vector& guess) {
-  NewtonResult result = newton_rubbing(system_, rubbing_, guess, options(), tension_, observer_);
+  NewtonResult result = rubbing_.solve(system_, guess, options(), tension_, observer_);
   for (int i = 0; result.ok() && i < max_stiffenings; ++i) {
     if (!effects_.contact->stiffen(parameters_.penetration)) break;
-    result = newton_rubbing_on(system_, rubbing_, result, options(), tension_, observer_);
+    result = rubbing_.solve_on(system_, result, options(), tension_, observer_);
   }
   return result;
 }

@@ -237,13 +237,13 @@ NewtonResult SolidProblem::minimise(const Vector& guess) {
 
 NewtonResult SolidProblem::solve_rubbing(const Vector& guess) {
   const NewtonOptions usual = options(force_tolerance, energy_tolerance);
-  NewtonResult result = newton_rubbing(solver_->system, rubbing_, guess, usual, scale_, observer_);
+  NewtonResult result = rubbing_.solve(solver_->system, guess, usual, scale_, observer_);
   if (result.ok()) return result;
   // From a poor guess: minimise with frozen friction until it is near, then once more.
   NewtonResult near = solve_frozen(guess);
   near.count_on(result);
   if (!near.ok()) return near;
-  return newton_rubbing_on(solver_->system, rubbing_, near, usual, scale_, observer_);
+  return rubbing_.solve_on(solver_->system, near, usual, scale_, observer_);
 }
 
 /// Minimises at frozen normal forces, facing points and tangents, which are then taken from the
