@@ -153,7 +153,8 @@ void write_file(const fs::path& path, const Checkpoint& checkpoint) {
   write_vector(file, "ebar", ebar);
   for (size_t k = 0; k < checkpoint.states.size(); ++k)
     if (!checkpoint.states[k].nodes.empty()) write_points(file, k, checkpoint.states[k]);
-  write_vector(file, "scales", Vector3(solid.tension, solid.contact_stiffness, solid.wall_s));
+  write_vector(file, "scales",
+               Eigen::Vector4d(solid.tension, solid.contact_stiffness, solid.wall_s, solid.energy));
   write_memory(file, "friction", solid.friction);
   write_memory(file, "whole_friction", solid.whole_friction);
   // Numbers in JSON are written so that they read back exactly.
@@ -171,7 +172,9 @@ Checkpoint read_file(const fs::path& path) {
   for (Eigen::Index k = 0; k < ebar.size(); ++k)
     solid.history.push_back({ebar[k], read_vector(file, fmt::format("state_{}", k).c_str())});
   const Vector scales = read_vector(file, "scales");
+  if (scales.size() != 4) throw std::runtime_error(path.string() + ": of another version");
   solid.tension = scales[0], solid.contact_stiffness = scales[1], solid.wall_s = scales[2];
+  solid.energy = scales[3];
   solid.friction = read_memory(file, "friction");
   solid.whole_friction = read_memory(file, "whole_friction");
   const Json log = Json::parse(read_text(file, "log"));

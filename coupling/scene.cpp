@@ -52,6 +52,9 @@ void derive_defaults(Values& values) {
   }
   const bool quadratic = solid3d::hex_element(values.word("solid3d.element")).degree == 2;
   derive(values, "solid3d.section_elements", quadratic ? 12.0 : 32.0);
+  // In time, stiffer contact makes for shorter steps.
+  derive(values, "solid3d.penetration", values.get<bool>("effects.inertia") ? 0.01 : 0.002);
+  derive(values, "solid3d.contact_stiffness", 0.6 / values.number("solid3d.penetration"));
   if (!values.get<std::vector<double>>("solid3d.confirm_at").empty())
     derive(values, "solid3d.confirm_elements", quadratic ? 21.0 : 60.0);
   // An even number puts a node in the middle, where a symmetric knot can be held.

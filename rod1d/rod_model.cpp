@@ -27,8 +27,6 @@ namespace {
 constexpr size_t kept = 12;
 /// Overlap of a start's strands, at most [D].
 constexpr double largest_start_overlap = 0.5;
-/// Smallest part of the energy whose loss is a snap.
-constexpr double snap_energy = 2e-3;
 /// Times that the nodes are chosen anew at the first equilibrium.
 constexpr int first_meshes = 3;
 
@@ -216,15 +214,12 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   return result;
 }
 
-/// Energy that the step to a new state has lost, beyond what the ends' work explains. Without
-/// friction dE = -T debar, with T between its values before and behind. Zero within the error that
-/// other nodes make.
-double RodModel::energy_lost(double ebar, double energy, double tension) const {
-  const double step = accepted_.back().ebar - ebar;
-  if (tension_ == 0 || parameters_.friction > 0 || std::abs(step) < same_ebar) return 0;
-  const double least = energy_ + std::min(tension_ * step, tension * step);
-  const double lost = least - energy;
-  return lost > 0.05 * std::abs(tension_ * step) + snap_energy * energy_ ? lost : 0;
+/// Energy lost by snapping to a new state; zero with friction, which is not a matter of energy.
+double RodModel::energy_snapped(const Equilibrium& now) const {
+  const Equilibrium last{accepted_.back().ebar, energy_, tension_};
+  if (tension_ == 0 || parameters_.friction > 0 || std::abs(last.ebar - now.ebar) < same_ebar)
+    return 0;
+  return energy_lost(last, now);
 }
 
 /// Turn of the finish end against the start [rad].
@@ -244,7 +239,7 @@ GripForces RodModel::measured_forces(const NewtonResult& result) const {
 
 StepRow RodModel::accept(const NewtonResult& result, double ebar) {
   const GripForces forces = measured_forces(result);
-  const double snapped = energy_lost(ebar, result.energy, forces.tension());
+  const double snapped = energy_snapped({ebar, result.energy, forces.tension()});
   if (tension_ == 0 || std::abs(accepted_.back().ebar - ebar) < same_ebar) accepted_.pop_back();
   if (snapped > 0) accepted_.clear();  // no polynomial goes through a snap
   accepted_.push_back({ebar, rod_.arc_length(), result.x});

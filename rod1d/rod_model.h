@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/force_path.h"
+#include "mechanics/snap.h"
 #include "rod1d/effects.h"
 #include "rod1d/grip.h"
 #include "rod1d/run_rod.h"
@@ -56,8 +57,6 @@ class RodModel final : public ForceModel {
   struct Equations;
   /// Steps in ebar below this are no steps.
   static constexpr double same_ebar = 1e-9;
-  /// A path of equilibria that not even steps this short can follow has come to a fold.
-  static constexpr double fold_step = 0.01;
   struct Accepted {
     double ebar;
     std::vector<double> arc;  ///< undeformed arc length of the nodes [D]
@@ -89,7 +88,7 @@ class RodModel final : public ForceModel {
   void halve();
   double turn_between_ends(const Vector& x) const;
   GripForces measured_forces(const NewtonResult& result) const;
-  double energy_lost(double ebar, double energy, double tension) const;
+  double energy_snapped(const Equilibrium& now) const;
   NewtonResult solve_once(const Vector& guess);
   Vector rolled(Vector x, double angle) const;
   Vector let_move(const Vector& x);

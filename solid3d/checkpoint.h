@@ -15,6 +15,7 @@ struct SolidCheckpoint {
   PathProgress progress;
   std::vector<Station> history;  ///< the last accepted states, newest last
   double tension = 0;            ///< scale of the tolerances [E D^2]
+  double energy = 0;             ///< [E D^3]
   double contact_stiffness = 0;  ///< [E/D]; 0 without contact
   FrictionMemory friction, whole_friction;
   double wall_s = 0;  ///< seconds that the run had taken

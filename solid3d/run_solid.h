@@ -31,7 +31,7 @@ struct SolidParameters {
   double contact_stiffness = 60;   ///< first normal penalty per area [E/D], less of a loose start
   double contact_onset = 0.005;    ///< width of the rounded onset of contact [D]: a fraction of
                                    ///< the overlap at moderate load
-  double penetration = 0.01;       ///< largest overlap allowed [D]; stiffened until met
+  double penetration = 0.002;      ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
   int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0, or with inertia: none

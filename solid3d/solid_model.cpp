@@ -102,9 +102,14 @@ double SolidModel::energy(const Vector& x) {
 
 StepRow SolidModel::accept(const NewtonResult& result, double ebar) {
   if (motion_) return moved_;
-  const double before = tension_;
-  const StepRow row = take(result, ebar);
-  stiffen_ahead(tension_ / before);
+  const Equilibrium before{history_.back().ebar, energy_, tension_};
+  const bool first = relaxing_;
+  StepRow row = take(result, ebar);
+  if (!first && !parameters_.friction && ebar != before.ebar)
+    row.snapped = energy_lost(before, {ebar, energy_, tension_});
+  // No polynomial goes through a snap.
+  if (row.snapped > 0) history_.erase(history_.begin(), history_.end() - 1);
+  stiffen_ahead(tension_ / before.tension);
   return row;
 }
 
@@ -165,6 +170,7 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
                   (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
     row.dissipated = friction.dissipated();
   }
+  energy_ = row.energy;
   row.end_torque = tension.torque;
   row.end_turn = grip_.turn(mesh_, newest());
   row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -194,6 +200,7 @@ SolidCheckpoint SolidModel::saved() const {
   SolidCheckpoint at;
   at.history = history_;
   at.tension = tension_;
+  at.energy = energy_;
   at.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
   if (effects_.contact) at.contact_stiffness = effects_.contact->law().stiffness;
   if (effects_.friction) at.friction = effects_.friction->memory();
@@ -205,6 +212,7 @@ void SolidModel::restore(const SolidCheckpoint& at) {
   relaxing_ = false;
   history_ = at.history;
   tension_ = at.tension;
+  energy_ = at.energy;
   if (effects_.contact) effects_.contact->law().stiffness = at.contact_stiffness;
   if (effects_.friction) effects_.friction->remember(at.friction);
   if (symmetry_ && effects_.friction) whole_effects_.friction->remember(at.whole_friction);

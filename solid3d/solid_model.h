@@ -10,6 +10,7 @@
 #include "mechanics/end_motion.h"
 #include "mechanics/newton.h"
 #include "mechanics/path.h"
+#include "mechanics/snap.h"
 #include "solid3d/checkpoint.h"
 #include "solid3d/effects.h"
 #include "solid3d/effects/grip.h"
@@ -127,9 +128,10 @@ class SolidModel final : public PathModel {
   mutable Assembler assembler_;
   SparseCholesky cholesky_;
   System system_;
-  double tension_;
+  double tension_, energy_ = 0;  ///< of the newest state, whole
   int determinant_ = 0;
   bool relaxing_ = true;        ///< the start is not yet in equilibrium
+  bool far_ = false;            ///< the equilibrium to be found may be behind a fold
   double start_energy_ = 0;     ///< while relaxing
   SolidEffects whole_effects_;  ///< of a symmetric knot, to measure with
   std::optional<Assembler> whole_assembler_;

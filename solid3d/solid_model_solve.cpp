@@ -22,7 +22,7 @@ constexpr double energy_rise = 0.3;
 /// and making them so costs energy that the potential of the cells' pressures has not seen.
 constexpr double start_rise = 0.1;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
-constexpr int max_iterations = 60;
+constexpr int max_iterations = 60, many_iterations = 1000;
 /// Of a guess: no shift is known yet. The tangent there is mostly indefinite, so zero is not tried.
 constexpr double unknown_shift = std::numeric_limits<double>::infinity();
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
@@ -36,6 +36,10 @@ constexpr int max_friction_passes = 10;
 }  // namespace
 
 NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
+  // Behind a fold Newton goes downhill, in moves too short for strands to pass each other, to where
+  // the knot rests.
+  far_ = !relaxing_ && !effects_.friction && !parameters_.inertia &&
+         std::abs(ebar - history_.back().ebar) < fold_step;
   NewtonResult result =
       parameters_.inertia && !relaxing_ ? move_to(ebar) : solve_at_rest(guess, ebar);
   if (result.ok() && knot_determinant(centerline(mesh_, result.x)) != determinant_) {
@@ -141,7 +145,7 @@ NewtonResult SolidModel::solve_with_friction_frozen(const Vector& guess) {
 
 NewtonOptions SolidModel::options() const {
   NewtonOptions options;
-  options.max_iterations = max_iterations;
+  options.max_iterations = far_ ? many_iterations : max_iterations;
   options.force_tolerance = std::max(force_tolerance * tension_, round_off());
   options.energy_tolerance = energy_tolerance * tension_;
   options.largest_move = parameters_.largest_move;

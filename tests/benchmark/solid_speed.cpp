@@ -1,7 +1,8 @@
 // What the solid costs: seconds, steps, iterations and factorisations of tight overhand knots
 // (L0 = 42.17 D, seeded by the rod). `solid_speed` runs the short cases, `solid_speed NAME ...`
-// those, `solid_speed try SECTION FROM TO STEP [mu=0.32] [knot=figure-eight] [whole]
-// [penetration=0.002] [ratio=0.8] [length=42.17] [iterations]` a path of one's own, step by step.
+// those (with `penetration=0.01`: overlap allowed [D]), `solid_speed try SECTION FROM TO STEP
+// [mu=0.32] [knot=figure-eight] [whole] [penetration=0.002] [ratio=0.8] [length=42.17]
+// [iterations]` a path of one's own, step by step.
 
 #include <algorithm>
 #include <chrono>
@@ -81,6 +82,8 @@ void run(Case c) {
   c.solid.rubs = rod.rubs;
   c.solid.path.waypoints = {c.from, c.to};
   c.solid.path.max_step = c.step;
+  for (const double ebar : {10.0, 0.0, -10.0})
+    if (ebar < c.from && ebar >= c.to) c.solid.path.record.push_back(ebar);
   c.solid.checkpoint_every = 0;
 
   solid3d::SolidObserver observer;
@@ -163,8 +166,17 @@ int main(int count, char** arguments) {
     run(own_case(words));
     return 0;
   }
-  for (const Case& c : all_cases())
-    if (words.empty() ? c.section == 12
-                      : std::find(words.begin(), words.end(), c.name) != words.end())
-      run(c);
+  double penetration = solid3d::SolidParameters().penetration;
+  bool named = false;
+  for (const std::string& word : words)
+    if (word.starts_with("penetration="))
+      penetration = std::stod(word.substr(word.find('=') + 1));
+    else
+      named = true;
+  for (Case c : all_cases()) {
+    if (named ? std::find(words.begin(), words.end(), c.name) == words.end() : c.section != 12)
+      continue;
+    c.solid.penetration = penetration;
+    run(c);
+  }
 }

@@ -17,6 +17,7 @@ Checkpoint example(int steps) {
   at.solid.history = {{17.5, Vector::Random(30)}, {17.123456789012345, Vector::Random(30)}};
   at.solid.tension = 1.0 / 3;
   at.solid.contact_stiffness = 61.7;
+  at.solid.energy = 1.0 / 7;
   at.solid.wall_s = 12.5;
   at.solid.friction.elastic_slip = {{3, Vector2(0.001, -1e-17)}, {8, Vector2(1.0 / 7, 0)}};
   at.solid.friction.dissipated = 0.1;
@@ -53,6 +54,7 @@ TEST_CASE("a checkpoint reads back exactly") {
   }
   CHECK(back->solid.tension == at.solid.tension);
   CHECK(back->solid.contact_stiffness == 61.7);
+  CHECK(back->solid.energy == at.solid.energy);
   CHECK(back->solid.wall_s == 12.5);
   CHECK(back->solid.friction.elastic_slip == at.solid.friction.elastic_slip);
   CHECK(back->solid.friction.dissipated == 0.1);

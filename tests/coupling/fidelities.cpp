@@ -1,9 +1,11 @@
 // The chain rod -> sweep -> solid on a coarse mesh: what must hold at every step of a tight knot.
 #include <omp.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "solid3d/checkpoint.h"
 #include "solid3d/effects/strain.h"
 #include "solid3d/transfer.h"
 #include "tests/coupling/tight_knot.h"
@@ -155,6 +157,40 @@ TEST_CASE("the solid tightens in balance, on one thread as on two") {
     CHECK(one.steps[i].tension == Approx(two.steps[i].tension).epsilon(1e-4));
 }
 
+TEST_CASE("contact is as stiff as the load that a step is going to") {
+  std::vector<solid3d::SolidCheckpoint> saved;
+  std::vector<StepRow> rows;
+  const solid3d::Mesh mesh = swept_mesh({.section_elements = 12, .axial_ratio = 1.0}, seed());
+  solid3d::SolidParameters parameters;
+  parameters.expected_tension = seed().tension;
+  parameters.penetration = tight_bound;
+  parameters.checkpoint_every = 1;
+  parameters.path.waypoints = {seed_ebar, 17, 18.5};
+  solid3d::SolidObserver observer;
+  observer.on_checkpoint = [&](const auto& checkpoint) { saved.push_back(checkpoint); };
+  observer.on_step = [&](const StepRow& row) { rows.push_back(row); };
+  const auto result = run_solid(mesh, sweep(mesh, seed()), seed_ebar, parameters, observer);
+  REQUIRE(result.outcome.status == PathStatus::finished);
+  REQUIRE(saved.size() >= 8);
+  // Saved with the stiffness that the next step begins with.
+  int ahead = 0;
+  for (size_t k = 1; k < saved.size(); ++k) {
+    const double grown = saved[k].contact_stiffness / saved[k - 1].contact_stiffness;
+    const auto row = std::ranges::find(rows, saved[k].progress.ebar, &StepRow::ebar);
+    const auto last = std::ranges::find(rows, saved[k - 1].progress.ebar, &StepRow::ebar);
+    REQUIRE((row != rows.end() && last != rows.end()));
+    CAPTURE(row->ebar);
+    const double expected = row->max_penetration * row->tension / last->tension;
+    CHECK(grown >= 1);
+    if (row->ebar > last->ebar) CHECK(grown == 1);  // loosened
+    if (row->ebar < last->ebar && expected > 0.76 * tight_bound) {
+      CHECK(grown > 1);
+      ++ahead;
+    }
+  }
+  CHECK(ahead > 1);
+}
+
 TEST_CASE("a state found on a coarse mesh is found on a finer one as by a path of its own") {
   std::vector<solid3d::SolidState> states, of_path;
   REQUIRE(tighten(18, &states).outcome.status == PathStatus::finished);
@@ -234,6 +270,7 @@ TEST_CASE("the paper's loose rod, soft in bending, is relaxed in a few iteration
   const solid3d::Mesh mesh = swept_mesh({.section_elements = 12}, loose);
   solid3d::SolidParameters parameters;
   parameters.expected_tension = loose.tension;
+  parameters.contact_stiffness = 300;  // as in scenes
   parameters.path.waypoints = parameters.path.record = {ebar};
   solid3d::SolidState state;
   solid3d::SolidObserver observer;

@@ -42,6 +42,8 @@ solid3d::SolidResult pull(std::vector<double> waypoints, double speed, double ax
   parameters.inertia = speed > 0;
   if (speed > 0) parameters.speed = speed, parameters.damping = 1e-3;  // 4/s
   parameters.time_tolerance = 1e-3;
+  // The defaults of scenes with inertia.
+  parameters.penetration = 0.01, parameters.contact_stiffness = 60;
   return solid3d::run_solid(mesh, sweep(mesh, seed(friction)), seed_ebar, parameters);
 }
 

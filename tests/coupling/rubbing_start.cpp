@@ -26,6 +26,9 @@ Tightened tightened(const solid3d::Mesh& mesh, const std::vector<Vector3>& start
   Tightened out{mesh, {}, {}};
   solid3d::SolidParameters parameters;
   parameters.friction = friction;
+  // In stiffer contact, a fine section's T from a coarse one's friction is less exact: 0.13 % off
+  // at an overlap of 0.2 % D, where it is 0.08 % here.
+  parameters.penetration = 0.01;
   parameters.expected_tension = tension;
   parameters.rubs = std::move(rubs);
   parameters.path.waypoints = waypoints;

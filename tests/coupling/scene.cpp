@@ -249,6 +249,15 @@ TEST_CASE("gravity, inertia and damping reach rod and solid in their own units")
     CHECK_THAT(of_solid, Catch::Contains(effect));
 }
 
+TEST_CASE("strands may overlap by 0.2 % D, and by 1 % D in time") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.toml", small_scene);
+  CHECK(solid_parameters(read_scene(file, {})).penetration == 0.002);
+  const Scene moving = read_scene(file, {"effects.inertia=true", "path.speed=0.5 mm/s"});
+  CHECK(solid_parameters(moving).penetration == 0.01);
+  CHECK(solid_parameters(moving).contact_stiffness == Approx(60));
+}
+
 TEST_CASE("a magnetic field reaches the rod in its own units, and is refused with the solid") {
   const TemporaryFolder folder;
   const std::vector<std::string> field = {"effects.magnetic_field=50 mT",
