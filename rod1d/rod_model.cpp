@@ -176,6 +176,7 @@ NewtonResult RodModel::solve(const Vector& guess, double ebar) {
   // and Newton goes downhill, in moves too short for strands to pass each other, to where it rests.
   const bool snaps = !rubs_ && std::abs(ebar - accepted_.back().ebar) < fold_step;
   far_ = tension_ == 0 || snaps;
+  relaxes_ = std::abs(ebar - accepted_.back().ebar) <= longest_relaxed_step;
   Vector x = guess;
   if (follows_) {
     const std::vector<double> arc = next_arc(ebar);

@@ -57,6 +57,9 @@ class RodModel final : public ForceModel {
   struct Equations;
   /// Steps in ebar below this are no steps.
   static constexpr double same_ebar = 1e-9;
+  /// Longest step in ebar whose solves with friction may be relaxed. What they settle on behind a
+  /// longer one may be another branch: it is better cut.
+  static constexpr double longest_relaxed_step = 1;
   struct Accepted {
     double ebar;
     std::vector<double> arc;  ///< undeformed arc length of the nodes [D]
@@ -126,6 +129,7 @@ class RodModel final : public ForceModel {
   double normal_force_ = 0;          ///< summed over the spots that rub there [E D^2]
   double dissipated_ = 0;            ///< by friction so far [E D^3]
   int last_iterations_ = 0;          ///< of the last solve
+  bool relaxes_ = false;             ///< solves with friction may be relaxed
   bool far_ = true;                  ///< the equilibrium to be found may be far from the guess
   std::map<std::string, double> energy_by_effect_;
   std::map<std::string, double> seconds_;            ///< of equations that were replaced

@@ -21,7 +21,7 @@ constexpr int most_motions = 20;
 /// By which a state that weight would leave is turned first, so that it does [rad].
 constexpr double slight_roll = 0.05;
 /// Solves of one step with contact stiffness and friction taken anew, at most.
-constexpr int max_passes = 20;
+constexpr int max_passes = 12, max_relaxed_passes = 20;
 /// Of them, those whose friction is that of the solution before, and those after which it goes
 /// only half as far from pass to pass as before.
 constexpr int whole_passes = 3, shorter_after[] = {whole_passes, 7, 13};
@@ -158,9 +158,10 @@ NewtonResult RodModel::solve_contact(Vector x) {
     }
   }
   Vector rubs_at = before_.x;
-  for (int pass = 0; pass < max_passes; ++pass) {
+  const int passes = relaxes_ ? max_relaxed_passes : max_passes;
+  for (int pass = 0; pass < passes; ++pass) {
     if (effects_.contact) effects_.contact->set_law({stiffness, 2 * aimed});
-    const double part = relaxation(pass);
+    const double part = relaxes_ ? relaxation(pass) : 1;
     if (rubs_ && !(near && pass == 0)) {
       if (pass > 0) rubs_at += part * (result.x - rubs_at);
       freeze(rubs_at);
@@ -183,7 +184,7 @@ NewtonResult RodModel::solve_contact(Vector x) {
     if (settled && overlap <= parameters_.penetration &&
         (!first || overlap > 0.3 * parameters_.penetration))
       break;
-    if (pass + 1 == max_passes && !settled) {
+    if (pass + 1 == passes && !settled) {
       result.status = NewtonStatus::too_many_iterations;
       result.reason = "friction does not settle";
     }
