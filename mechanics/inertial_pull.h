@@ -5,12 +5,13 @@
 
 namespace bight {
 
-/// Inertia in an implicit stage of time integration, as an energy:
+/// Inertia, or drag, in an implicit stage of time integration, as an energy:
 ///
 ///   P(x) = strength/2 sum of m_i (x_i - target_i)^2   [E D^3]
 ///
 /// over the coordinates that Newton moves, angles among them. Where W + P is least, the stage's
 /// equations of motion hold (mechanics/dynamics.h). Without a stage its strength is zero.
+/// A step h of implicit Euler with a drag of alpha M v and no inertia is one with alpha/h.
 class InertialPull final : public Effect {
  public:
   /// `mass`: by coordinates [rho D^3]; of an angle, what the points that it carries weigh is there

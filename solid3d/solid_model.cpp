@@ -140,10 +140,7 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   row.energy = result.energy;
   if (symmetry_) {
     if (effects_.contact) whole_effects_.contact->law() = effects_.contact->law();
-    if (effects_.friction) {
-      whole_effects_.contact->refresh(rubbing_.frozen_at());
-      whole_effects_.friction->freeze(rubbing_.frozen_at(), before);
-    }
+    freeze_whole(before);
     whole_assembler_->refresh(newest());
     row.energy = whole_assembler_->assemble(newest(), Order::gradient, gradient);
   }
@@ -163,9 +160,8 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   }
   if (effects_.friction) {
     // The potential of a step counts what sliding has cost; energy is what is still there.
-    Friction& friction = *whole().friction;
-    friction.accept(newest());
-    if (symmetry_) effects_.friction->accept(newest());
+    const Friction& friction = *whole().friction;
+    accept_friction(newest());
     row.energy += friction.stored(newest()) -
                   (symmetry_ ? *whole_assembler_ : assembler_).energy_by_effect().at("friction");
     row.dissipated = friction.dissipated();
@@ -175,6 +171,17 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   row.end_turn = grip_.turn(mesh_, newest());
   row.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
   return row;
+}
+
+void SolidModel::freeze_whole(const Vector& last) {
+  if (!symmetry_ || !effects_.friction) return;
+  whole_effects_.contact->refresh(rubbing_.frozen_at());
+  whole_effects_.friction->freeze(rubbing_.frozen_at(), last);
+}
+
+void SolidModel::accept_friction(const Vector& x) {
+  effects_.friction->accept(x);
+  if (symmetry_) whole_effects_.friction->accept(x);
 }
 
 SolidState SolidModel::state(double ebar) {

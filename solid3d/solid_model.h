@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <chrono>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,8 +57,12 @@ class SolidModel final : public PathModel {
   void observe(NewtonObserver observer) { observer_ = std::move(observer); }
 
  private:
+  NewtonResult relax(const Vector& start);
+  NewtonResult relax_at_once(const Vector& start);
+  NewtonResult relax_slowly();
   NewtonResult settle(const Vector& start);
   NewtonResult solve_frictionless(const Vector& guess);
+  NewtonResult stiffened(NewtonResult solved);
   /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the
   /// end tension stays. The start is relaxed with friction, too: the shape of a rod with friction
   /// is held by it.
@@ -68,6 +73,10 @@ class SolidModel final : public PathModel {
 
   void take_over(std::vector<Rub> rubs);
   void stiffen_ahead(double growth);
+
+  /// Friction of a solution since the last state, by the whole knot as by its half.
+  void freeze_whole(const Vector& last);
+  void accept_friction(const Vector& x);
 
   /// Takes a state over as the newest one and measures it.
   StepRow take(const NewtonResult& result, double ebar);
@@ -116,6 +125,10 @@ class SolidModel final : public PathModel {
 
   /// Tangent predictor: the linear answer of the last tangent to the motion of the ends.
   Vector follow_grip(double ebar) const;
+
+  /// Of a guess: no shift is known yet. The tangent there is mostly indefinite, so zero is not
+  /// tried.
+  static constexpr double unknown_shift = std::numeric_limits<double>::infinity();
 
   const Mesh& mesh_;
   const SolidParameters& parameters_;

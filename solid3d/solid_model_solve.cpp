@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "mechanics/coupled_newton.h"
 #include "mechanics/knot_type.h"
 #include "solid3d/measure.h"
 #include "solid3d/solid_model.h"
@@ -23,12 +21,8 @@ constexpr double energy_rise = 0.3;
 constexpr double start_rise = 0.1;
 constexpr double shift_decay = 0.01;  // good guesses need no slow decay
 constexpr int max_iterations = 60, many_iterations = 1000;
-/// Of a guess: no shift is known yet. The tangent there is mostly indefinite, so zero is not tried.
-constexpr double unknown_shift = std::numeric_limits<double>::infinity();
 /// Contact is stiffened until the overlap is in its bound, at most this often per solve.
 constexpr int max_stiffenings = 6;
-/// Times that a start is tried with contact a tenth as stiff.
-constexpr int softer_starts = 2;
 /// Friction has settled when the end tension changes by less than this part of it.
 constexpr double friction_settled = 5e-4;
 constexpr int max_friction_passes = 10;
@@ -50,50 +44,18 @@ NewtonResult SolidModel::solve(const Vector& guess, double ebar) {
 }
 
 NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
-  const auto attempt = [&] {
-    system_.shift = unknown_shift;
-    start_energy_ = relaxing_ ? energy(guess) : 0;
-    return effects_.friction ? solve_with_friction(guess)
-                             : solve_frictionless(best_guess(guess, ebar));
-  };
-  NewtonResult result = attempt();
-  const auto again = [&] {
-    const NewtonResult failed = std::move(result);
-    result = attempt();
-    result.count_on(failed);
-  };
-  // Tractions that nothing sticks to may leave a knot unstable.
-  if (!result.ok() && relaxing_ && effects_.friction && effects_.friction->prescribes()) {
-    for (const SolidEffects* effects : {&effects_, &whole_effects_})
-      if (effects->friction) effects->friction->let_slip();
-    again();
-  }
-  // A tight start overlaps by more than stiff contact can push out at once.
-  for (int i = 0; !result.ok() && relaxing_ && effects_.contact && i < softer_starts; ++i) {
-    effects_.contact->law().stiffness *= 0.1;
-    again();
-  }
-  return result;
-}
-
-/// Damped steps, which may raise the energy: the cells of a swept start store less than the same
-/// shape true to volume does, and its strands overlap.
-NewtonResult SolidModel::settle(const Vector& start) {
-  struct : FollowingForces {
-    void freeze(const Vector&) override {}
-    void add_change(const Vector&, Vector&) const override {}
-  } none;
-  return coupled_newton(system_, none, start, options(), {.damped = true}, observer_);
+  if (relaxing_) return relax(guess);
+  system_.shift = unknown_shift;
+  start_energy_ = 0;
+  return effects_.friction ? solve_with_friction(guess)
+                           : solve_frictionless(best_guess(guess, ebar));
 }
 
 NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
-  NewtonResult result;
-  if (relaxing_) result = settle(guess);
-  if (!result.ok()) {
-    const NewtonResult failed = std::move(result);
-    result = newton(system_, guess, options(), observer_);
-    result.count_on(failed);
-  }
+  return stiffened(newton(system_, guess, options(), observer_));
+}
+
+NewtonResult SolidModel::stiffened(NewtonResult result) {
   for (int i = 0; result.ok() && effects_.contact && i < max_stiffenings; ++i) {
     if (!effects_.contact->stiffen(parameters_.penetration)) break;
     result = go_on(std::move(result));

@@ -54,11 +54,12 @@ class Friction final : public Effect {
   /// moves while it is relaxed is not what has rubbed. Nothing is dissipated then.
   void prescribe(std::vector<Rub> rubs, const Vector& start);
   bool prescribes() const { return !prescribed_.empty(); }
-  /// Slip counts from now on, from the elastic slips that were prescribed.
-  void let_slip() { prescribed_.clear(); }
   /// What is remembered, as vectors at the newest accepted state x, to which contact has been
   /// refreshed last.
   std::vector<Rub> rubs(const Vector& x) const;
+
+  /// What has been dissipated so far is of the start's making, and not counted.
+  void begin_books() { memory_.dissipated = 0; }
 
   const FrictionMemory& memory() const { return memory_; }
   void remember(FrictionMemory memory) { memory_ = std::move(memory), prescribed_.clear(); }

@@ -81,6 +81,30 @@ TEST_CASE("hard: solid of 1 um and 1 m, of 1 Pa and 1 TPa", "[.hard]") {
   for (const auto& [D, E] : extremes) same_tbar(run("solid", solid + scaled(D, E)), common);
 }
 
+TEST_CASE("hard: solids with mu = 0.32 that begin tight, with their rod's friction", "[.hard]") {
+  struct {
+    const char* knot;
+    int determinant;
+    double ebar;
+  } const knots[] = {{"overhand", 3, 0}, {"figure-eight", 5, 10}};
+  for (const auto& [knot, determinant, ebar] : knots) {
+    const auto begun_at = [&](double seed) {
+      return run("solid", {fmt::format("knot.type={}", knot), "knot.start=straight",
+                           "effects.friction=0.32", fmt::format("solid3d.seed_ebar={}", seed),
+                           fmt::format("path.ebar=[28, {}]", ebar - 1),
+                           fmt::format("path.record=[{}, {}]", ebar, ebar - 1)});
+    };
+    const Result tight = begun_at(ebar), path = begun_at(21);
+    must_hold(tight, {.balance = 0, .determinant = determinant});
+    REQUIRE(path.states() == tight.states());
+    for (size_t i = 0; i < 2; ++i) {
+      say(fmt::format("{}: {:.2g} off a path from ebar 21", knot,
+                      tight.tbar(i) / path.tbar(i) - 1));
+      CHECK(tight.tbar(i) == Approx(path.tbar(i)).epsilon(0.02));
+    }
+  }
+}
+
 TEST_CASE("hard: solid with mu = 0.32, one thread and two", "[.hard]") {
   const Settings solid = {"path.ebar=[14, 12]", "effects.friction=0.32"};
   const Result one = run("solid", solid, 1), two = run("solid", solid, 2);
