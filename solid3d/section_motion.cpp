@@ -7,21 +7,20 @@
 
 namespace bight::solid3d {
 
-namespace {
-
-/// Rotation by the vector w (axis times angle).
-Matrix3 exponential(const Vector3& w) {
+Matrix3 rotation_by(const Vector3& w) {
   const double angle = w.norm();
   if (angle == 0) return Matrix3::Identity();
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
-Vector3 logarithm(const Matrix3& R) {
+Vector3 rotation_vector(const Matrix3& R) {
   const Eigen::AngleAxisd turn(R);
   return turn.angle() * turn.axis();
 }
 
-}  // namespace
+Vector3 seen_from(const SectionPlace& place, const Vector& x, int at) {
+  return place.rotation.transpose() * (x.segment<3>(at) - place.centre);
+}
 
 std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x) {
   const int per_layer = mesh.points_per_layer();
@@ -70,7 +69,7 @@ void advance_strand(const Mesh& mesh, Vector& x, const Vector& dx) {
       moment += r.cross(step.col(p) - shift);
     }
     const Vector3 w = inertia.ldlt().solve(moment);
-    const Matrix3 R = exponential(w);
+    const Matrix3 R = rotation_by(w);
     for (int p = 0; p < per_layer; ++p) {
       const Vector3 r = nodes.col(p) - centre;
       const Vector3 strain = step.col(p) - shift - w.cross(r);
@@ -91,13 +90,8 @@ struct Screw {
 };
 
 Screw screw(const SectionPlace& from, const SectionPlace& to, double de) {
-  return {logarithm(from.rotation.transpose() * to.rotation) / de,
+  return {rotation_vector(from.rotation.transpose() * to.rotation) / de,
           from.rotation.transpose() * (to.centre - from.centre) / de};
-}
-
-/// A node as its section sees it.
-Vector3 seen_from(const SectionPlace& place, const Vector& x, int at) {
-  return place.rotation.transpose() * (x.segment<3>(at) - place.centre);
 }
 
 /// Moves a strand of x, its newest state, on to `ebar`.
@@ -122,7 +116,7 @@ void extrapolate_strand(const Mesh& mesh, const std::vector<Station>& states, do
     }
     const Matrix3& R = places[k].rotation;
     const Vector3 centre = places[k].centre + R * (de * rate.shift);
-    const Matrix3 turned = R * exponential(de * rate.turn);
+    const Matrix3 turned = R * rotation_by(de * rate.turn);
     for (int p = 0; p < mesh.points_per_layer(); ++p) {
       const int at = 3 * mesh.node(k, p);
       const Vector3 mine = seen_from(places[k], now.x, at), was = seen_from(old[k], before.x, at);

@@ -17,6 +17,13 @@ struct SectionPlace {
 /// Places of all sections of a state (Kabsch 1976: the rotation nearest to the deformation).
 std::vector<SectionPlace> section_places(const Mesh& mesh, const Vector& x);
 
+/// The node whose coordinates begin at `at`, as a section there sees it.
+Vector3 seen_from(const SectionPlace& place, const Vector& x, int at);
+
+/// Rotation by the vector w (axis times angle), and the vector of a rotation.
+Matrix3 rotation_by(const Vector3& w);
+Vector3 rotation_vector(const Matrix3& R);
+
 /// x + dx, where each section's mean rotation in dx is taken through the exponential map: a linear
 /// update inflates a section that turns by theta by theta^2/2, which incompressibility punishes.
 void advance_sections(std::span<const Mesh> strands, Vector& x, const Vector& dx);

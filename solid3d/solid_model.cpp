@@ -6,6 +6,7 @@
 #include "mechanics/knot_type.h"
 #include "solid3d/measure.h"
 #include "solid3d/section_motion.h"
+#include "solid3d/travelling_guess.h"
 
 namespace bight::solid3d {
 
@@ -86,13 +87,19 @@ Vector SolidModel::held(Vector x, double ebar) const {
   return x;
 }
 
-/// The guess of least energy: where the path is not smooth (strands slip over a coarse mesh) the
+/// The guess of least energy. Where the path is not smooth (strands slip over a coarse mesh) the
 /// last two states foretell more than the last three.
 Vector SolidModel::best_guess(const Vector& guess, double ebar) {
-  if (history_.size() < 3 || ebar == history_.back().ebar) return guess;
+  if (history_.size() < 2 || ebar == history_.back().ebar) return guess;
   const std::vector<Station> two(history_.end() - 2, history_.end());
-  Vector straight = held(extrapolate_sections(mesh_, two, ebar), ebar);
-  return energy(straight) < energy(guess) ? straight : guess;
+  const Vector straight = held(extrapolate_sections(mesh_, two, ebar), ebar);
+  const Vector travelling =
+      held(travelling_guess(mesh_, two, ebar, straight, internal_begin_), ebar);
+  const Vector* best = &guess;
+  double least = energy(guess);
+  for (const Vector* other : {&straight, &travelling})
+    if (const double its = energy(*other); its < least) best = other, least = its;
+  return *best;
 }
 
 double SolidModel::energy(const Vector& x) {

@@ -14,8 +14,9 @@ namespace {
 /// Tolerances of Newton relative to the end tension.
 constexpr double force_tolerance = 1e-8;
 constexpr double energy_tolerance = 1e-9;
-/// Energy rise that the first iteration may take, relative to T D.
-constexpr double energy_rise = 0.3;
+/// Energy rise that the first iteration may take, relative to T D: with more, what a bad step costs
+/// is not soon won back.
+constexpr double energy_rise = 0.01;
 /// The same of a start, relative to its energy: the cells of the sweep are not yet true to volume,
 /// and making them so costs energy that the potential of the cells' pressures has not seen.
 constexpr double start_rise = 0.1;

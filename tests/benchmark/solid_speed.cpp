@@ -148,6 +148,8 @@ Case own_case(const std::vector<std::string>& words) {
       c.solid.penetration = std::stod(value());
     else if (word.starts_with("stiffness="))
       c.solid.contact_stiffness = std::stod(value());
+    else if (word.starts_with("onset="))
+      c.solid.contact_onset = std::stod(value());
     else if (word.starts_with("spacing="))
       c.solid.sample_spacing = std::stod(value());
     else if (word.starts_with("ratio="))
