@@ -9,9 +9,8 @@ namespace {
 constexpr int most_damped = 30;
 /// Of full steps that settle.
 constexpr double most_growth = 2;
-/// Relative to the force scale: decrement of a short step, energy tolerance of the first
-/// iterations.
-constexpr double short_step = 5e-2, first_energy_tolerance = 1e-2;
+/// Energy tolerance of the first iterations, relative to the force scale.
+constexpr double first_energy_tolerance = 1e-2;
 
 /// One solve after another, each with the iterations of those before counted on.
 class Attempts {
@@ -40,7 +39,8 @@ class Attempts {
                                steps, observer_));
   }
   bool short_damped(const Vector& from) {
-    return coupled(from, {.damped = true, .most_growth = 0, .short_step = short_step * scale_});
+    return coupled(from,
+                   {.damped = true, .most_growth = 0, .short_step = limits_.short_step * scale_});
   }
   bool full_or_damped(const Vector& from) {
     return coupled(from, {.most_growth = most_growth}) || coupled(from, {.damped = true});

@@ -13,19 +13,19 @@ class RubbingForces : public FollowingForces {
 
 /// What a model asks of a solve with friction; tolerances relative to its scale of forces.
 struct RubbingLimits {
-  int few_first;  ///< iterations with the last state's friction, which bring contact forces in
-                  ///< range
-  int most_full;  ///< full steps with the whole tangent, at most: mostly they are 4
+  double short_step;  ///< decrement of the longest step that an attempt from the guess takes [D]
+  int few_first;      ///< iterations with the last state's friction, which bring contact forces in
+                      ///< range
+  int most_full;      ///< full steps with the whole tangent, at most: mostly they are 4
   double first_force_tolerance;
   double energy_tolerance, force_tolerance;
 };
 
-/// Newton steps with the whole tangent. From a guess whose first step is short, damped ones; they
-/// are given up where one is not. Else a few steps with the last state's friction come first: the
-/// contact forces of a poor guess are too rough to begin with. Then full ones, then damped ones
-/// where these fail; where both fail, as many of the few as it takes, and again. `options` is what
-/// a frictionless solve would take; its tolerances and iterations are replaced by `limits`,
-/// relative to the force `scale` [E D^2].
+/// Newton steps with the whole tangent. From a guess whose steps are short enough, damped ones.
+/// Else a few steps with the last state's friction come first: the contact forces of a poor guess
+/// are too rough to begin with. Then full ones, then damped ones where these fail; where both fail,
+/// as many of the few as it takes, and again. `options` is what a frictionless solve would take;
+/// its tolerances and iterations are replaced by `limits`, relative to the force `scale` [E D^2].
 NewtonResult newton_rubbing(System& system, RubbingForces& forces, const Vector& guess,
                             const NewtonOptions& options, const RubbingLimits& limits, double scale,
                             const NewtonObserver& observer = {});

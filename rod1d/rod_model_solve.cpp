@@ -31,7 +31,8 @@ constexpr double stalled_residual = 1e-3;
 constexpr double settled_change = 5e-4;
 /// Of the iterations with the whole tangent. The minimisation that comes after them does the rest.
 constexpr int many_first = 30;
-constexpr RubbingLimits rubbing_limits{.few_first = 2,
+constexpr RubbingLimits rubbing_limits{.short_step = 5e-2,
+                                       .few_first = 2,
                                        .most_full = 12,
                                        .first_force_tolerance = 1,
                                        .energy_tolerance = 1e-5,

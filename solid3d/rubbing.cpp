@@ -5,7 +5,8 @@ namespace bight::solid3d {
 namespace {
 
 /// The energy of the last step is the square of what it leaves.
-constexpr RubbingLimits limits{.few_first = 3,
+constexpr RubbingLimits limits{.short_step = 1,
+                               .few_first = 2,
                                .most_full = 15,
                                .first_force_tolerance = 1e-2,
                                .energy_tolerance = 5e-7,

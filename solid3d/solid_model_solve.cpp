@@ -48,8 +48,8 @@ NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
   if (relaxing_) return relax(guess);
   system_.shift = unknown_shift;
   start_energy_ = 0;
-  return effects_.friction ? solve_with_friction(guess)
-                           : solve_frictionless(best_guess(guess, ebar));
+  const Vector best = best_guess(guess, ebar);
+  return effects_.friction ? solve_with_friction(best) : solve_frictionless(best);
 }
 
 NewtonResult SolidModel::solve_frictionless(const Vector& guess) {
