@@ -1,8 +1,9 @@
 // What the solid costs: seconds, steps, iterations and factorisations of tight overhand knots
-// (L0 = 42.17 D, seeded by the rod). `solid_speed` runs the short cases, `solid_speed NAME ...`
-// those (with `penetration=0.01`: overlap allowed [D]), `solid_speed try SECTION FROM TO STEP
-// [mu=0.32] [knot=figure-eight] [whole] [penetration=0.002] [ratio=0.8] [length=42.17]
-// [iterations]` a path of one's own, step by step.
+// (L0 = 42.17 D, seeded by the rod). `solid_speed [NAME ...] [SETTING ...]` runs the named cases,
+// tight12 to tight108_friction, or the short ones; `solid_speed try SECTION FROM TO STEP
+// [SETTING ...]` a path of one's own, step by step. Settings: mu=0.32 knot=figure-eight step=0.5
+// ratio=0.8 (axial) length=42.17 penetration=0.002 stiffness= onset= spacing=, and for
+// a path of one's own whole (no symmetry) and iterations (each one).
 
 #include <algorithm>
 #include <chrono>
@@ -70,8 +71,8 @@ rod1d::RodState seed(const Case& c) {
 }
 
 void run(Case c) {
-  std::printf("%s: %s knot, section of %d cells, ebar %g -> %g, mu = %g\n", c.name.c_str(),
-              c.knot.c_str(), c.section, c.from, c.to, c.friction);
+  std::printf("%s: %s knot, section of %d cells, axial ratio %g, ebar %g -> %g, mu = %g\n",
+              c.name.c_str(), c.knot.c_str(), c.section, c.axial_ratio, c.from, c.to, c.friction);
   const rod1d::RodState rod = seed(c);
   if (rod.nodes.empty()) return;
   const auto mesh =
@@ -111,12 +112,13 @@ void run(Case c) {
   const PathOutcome& o = result.outcome;
   std::printf("  %s%s\n",
               o.status == PathStatus::finished ? "finished" : "GAVE UP: ", o.reason.c_str());
+  const int start_iterations = result.steps.empty() ? 0 : result.steps.front().newton_iterations;
   std::printf(
-      "  CPU %.1f s, wall %.1f s, unknowns %d%s, steps %d, iterations %d (%.1f a step), "
-      "factorisations %d (%.1f), cuts %d, penetration %.4f\n",
+      "  CPU %.1f s, wall %.1f s, unknowns %d%s, steps %d, iterations %d (%.1f a step, %d in the "
+      "start), factorisations %d (%.1f), cuts %d, penetration %.4f\n",
       cpu_seconds() - cpu, wall_seconds() - wall, result.unknowns,
       result.symmetric ? " (one half)" : "", o.steps, o.iterations,
-      static_cast<double>(o.iterations) / std::max(1, o.steps), o.factorisations,
+      static_cast<double>(o.iterations) / std::max(1, o.steps), start_iterations, o.factorisations,
       static_cast<double>(o.factorisations) / std::max(1, o.steps), cuts, worst);
   for (const StepRow& row : result.steps)
     for (const double ebar : {10.0, 0.0, -10.0})
@@ -127,37 +129,33 @@ void run(Case c) {
   std::fflush(stdout);
 }
 
-Case own_case(const std::vector<std::string>& words) {
-  Case c{"try", std::stoi(words.at(1)), std::stod(words.at(2)), std::stod(words.at(3)),
-         std::stod(words.at(4))};
-  c.each_step = true;
-  for (size_t i = 5; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    const auto value = [&] { return word.substr(word.find('=') + 1); };
-    if (word == "whole")
-      c.solid.symmetry = false;
-    else if (word == "iterations")
-      c.each_iteration = true;
-    else if (word.starts_with("mu="))
-      c.friction = std::stod(value());
-    else if (word.starts_with("knot="))
-      c.knot = value();
-    else if (word.starts_with("length="))
-      c.length = std::stod(value());
-    else if (word.starts_with("penetration="))
-      c.solid.penetration = std::stod(value());
-    else if (word.starts_with("stiffness="))
-      c.solid.contact_stiffness = std::stod(value());
-    else if (word.starts_with("onset="))
-      c.solid.contact_onset = std::stod(value());
-    else if (word.starts_with("spacing="))
-      c.solid.sample_spacing = std::stod(value());
-    else if (word.starts_with("ratio="))
-      c.axial_ratio = std::stod(value());
-    else
-      std::printf("unknown word %s\n", word.c_str());
-  }
-  return c;
+/// Changes a case as a word of the command line says.
+void set(Case& c, const std::string& word) {
+  const auto value = [&] { return word.substr(word.find('=') + 1); };
+  if (word == "whole")
+    c.solid.symmetry = false;
+  else if (word == "iterations")
+    c.each_iteration = true;
+  else if (word.starts_with("mu="))
+    c.friction = std::stod(value());
+  else if (word.starts_with("knot="))
+    c.knot = value();
+  else if (word.starts_with("length="))
+    c.length = std::stod(value());
+  else if (word.starts_with("step="))
+    c.step = std::stod(value());
+  else if (word.starts_with("penetration="))
+    c.solid.penetration = std::stod(value());
+  else if (word.starts_with("stiffness="))
+    c.solid.contact_stiffness = std::stod(value());
+  else if (word.starts_with("onset="))
+    c.solid.contact_onset = std::stod(value());
+  else if (word.starts_with("spacing="))
+    c.solid.sample_spacing = std::stod(value());
+  else if (word.starts_with("ratio="))
+    c.axial_ratio = std::stod(value());
+  else
+    std::printf("unknown word %s\n", word.c_str());
 }
 
 }  // namespace
@@ -165,20 +163,19 @@ Case own_case(const std::vector<std::string>& words) {
 int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   if (!words.empty() && words[0] == "try") {
-    run(own_case(words));
+    Case c{"try", std::stoi(words.at(1)), std::stod(words.at(2)), std::stod(words.at(3)),
+           std::stod(words.at(4))};
+    c.each_step = true;
+    for (size_t i = 5; i < words.size(); ++i) set(c, words[i]);
+    run(c);
     return 0;
   }
-  double penetration = solid3d::SolidParameters().penetration;
-  bool named = false;
+  std::vector<std::string> names, settings;
   for (const std::string& word : words)
-    if (word.starts_with("penetration="))
-      penetration = std::stod(word.substr(word.find('=') + 1));
-    else
-      named = true;
+    (word.find('=') == std::string::npos ? names : settings).push_back(word);
   for (Case c : all_cases()) {
-    if (named ? std::find(words.begin(), words.end(), c.name) == words.end() : c.section != 12)
-      continue;
-    c.solid.penetration = penetration;
+    if (names.empty() ? c.section != 12 : std::ranges::find(names, c.name) == names.end()) continue;
+    for (const std::string& word : settings) set(c, word);
     run(c);
   }
 }
