@@ -142,6 +142,22 @@ void read_points(hid_t file, size_t k, solid3d::SolidState& state) {
     state.rubs.push_back({rubs[i], rubs[i + 1], rubs.segment<3>(i + 2)});
 }
 
+void write_motion(hid_t file, const solid3d::MotionState& motion) {
+  write_vector(file, "positions", motion.x);
+  write_vector(file, "velocities", motion.v);
+  write_vector(file, "motion", Vector3(motion.time, motion.next_step, motion.dissipated));
+}
+
+std::optional<solid3d::MotionState> read_motion(hid_t file) {
+  if (H5Lexists(file, "motion", H5P_DEFAULT) <= 0) return std::nullopt;
+  const Vector scalars = read_vector(file, "motion");
+  return solid3d::MotionState{.time = scalars[0],
+                              .x = read_vector(file, "positions"),
+                              .v = read_vector(file, "velocities"),
+                              .next_step = scalars[1],
+                              .dissipated = scalars[2]};
+}
+
 void write_file(const fs::path& path, const Checkpoint& checkpoint) {
   const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   const solid3d::SolidCheckpoint& solid = checkpoint.solid;
@@ -157,6 +173,7 @@ void write_file(const fs::path& path, const Checkpoint& checkpoint) {
                Eigen::Vector4d(solid.tension, solid.contact_stiffness, solid.wall_s, solid.energy));
   write_memory(file, "friction", solid.friction);
   write_memory(file, "whole_friction", solid.whole_friction);
+  if (solid.motion) write_motion(file, *solid.motion);
   // Numbers in JSON are written so that they read back exactly.
   const Json log = {
       {"progress", solid.progress}, {"rows", checkpoint.rows}, {"states", checkpoint.states}};
@@ -177,6 +194,7 @@ Checkpoint read_file(const fs::path& path) {
   solid.energy = scales[3];
   solid.friction = read_memory(file, "friction");
   solid.whole_friction = read_memory(file, "whole_friction");
+  solid.motion = read_motion(file);
   const Json log = Json::parse(read_text(file, "log"));
   log.at("progress").get_to(solid.progress);
   log.at("rows").get_to(checkpoint.rows);

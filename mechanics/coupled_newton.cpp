@@ -6,6 +6,7 @@
 
 #include "mechanics/gmres.h"
 #include "mechanics/newton_direction.h"
+#include "mechanics/timed.h"
 
 namespace bight {
 
@@ -54,16 +55,20 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     const double energy = assembler.energy(trial);
     return std::isfinite(energy) ? energy : inadmissible;
   };
+  const auto freeze = [&](const Vector& at) {
+    const Timed timed(system.seconds["pairs"]);
+    forces.freeze(at);
+  };
   const auto level_at = [&](const Vector& trial) {
     Vector gradient;
-    forces.freeze(trial);
+    freeze(trial);
     if (!std::isfinite(evaluate(system, trial, Order::gradient, gradient))) return inadmissible;
     const Vector r = unknowns.reduce(trial, gradient);
-    return r.allFinite() ? r.dot(system.cholesky.solve(r)) : inadmissible;
+    return r.allFinite() ? r.dot(solved(system, r)) : inadmissible;
   };
   double first_decrement = 0, least = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
-    forces.freeze(x);
+    freeze(x);
     result.energy = evaluate(system, x, Order::hessian, result.gradient);
     const Vector g = unknowns.reduce(x, result.gradient);
     if (!std::isfinite(result.energy) || !g.allFinite())
@@ -85,8 +90,11 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     step = gmres(
         [&](const Vector& v) {
           Vector change = Vector::Zero(x.size());
-          forces.add_change(unknowns.expand(x, v), change);
-          return Vector(v + system.cholesky.solve(unknowns.reduce(x, change)));
+          {
+            const Timed timed(system.seconds["assembly"]);
+            forces.add_change(unknowns.expand(x, v), change);
+          }
+          return Vector(v + solved(system, unknowns.reduce(x, change)));
         },
         step, most_products, linear_tolerance);
     if (!step.allFinite()) return finish(NewtonStatus::not_finite, "the step is not finite");

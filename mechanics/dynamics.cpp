@@ -90,6 +90,7 @@ struct Dynamics::Package {
     ARKStepSetMaxConvFails(arkode, most_failures);
     ARKStepSetMaxErrTestFails(arkode, most_failures);
     if (std::isfinite(options.max_step)) ARKStepSetMaxStep(arkode, options.max_step);
+    if (options.first_step > 0) ARKStepSetInitStep(arkode, options.first_step);
   }
   ~Package() {
     ARKStepFree(&arkode);
@@ -310,6 +311,11 @@ void Dynamics::forces_changed() {
 }
 
 double Dynamics::time() const { return package_->time; }
+double Dynamics::next_step() const {
+  double step = 0;
+  ARKStepGetCurrentStep(package_->arkode, &step);
+  return step;
+}
 const Vector& Dynamics::x() const { return package_->x; }
 const Vector& Dynamics::v() const { return package_->v; }
 const std::string& Dynamics::reason() const { return package_->reason; }

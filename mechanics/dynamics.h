@@ -46,6 +46,7 @@ struct DynamicsOptions {
   /// velocity_scale and the largest velocity there is.
   double tolerance = 1e-4;
   double velocity_scale = 1e-3;
+  double first_step = 0;                                      ///< that is tried [time]; 0: chosen
   double max_step = std::numeric_limits<double>::infinity();  ///< [time]
   /// Largest change of a coordinate in one step: less than what strands need to pass each other.
   double largest_move = std::numeric_limits<double>::infinity();
@@ -89,7 +90,8 @@ class Dynamics {
   void forces_changed();
 
   double time() const;
-  const Vector& x() const;  ///< by coordinates
+  double next_step() const;  ///< that will be tried
+  const Vector& x() const;   ///< by coordinates
   const Vector& v() const;
   const std::string& reason() const;
 

@@ -17,6 +17,11 @@ double evaluate(System& system, const Vector& x, Order order, Vector& gradient) 
   return system.assembler.assemble(x, order, gradient);
 }
 
+Vector solved(System& system, const Vector& r) {
+  const Timed timed(system.seconds["solve"]);
+  return system.cholesky.solve(r);
+}
+
 bool newton_direction(System& system, const Vector& g, const NewtonOptions& options,
                       NewtonResult& result, Vector& step) {
   const SymmetricMatrix& H = system.assembler.hessian();
@@ -33,10 +38,12 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
   if (shift < 1e-10 * largest) shift = 0;
   for (; shift <= 100 * largest; shift = std::max(first, 10 * shift)) {
     ++result.factorisations;
-    const Timed timed(system.seconds["factorisation"]);
-    if (!system.cholesky.factor(H, shift)) continue;
+    {
+      const Timed timed(system.seconds["factorisation"]);
+      if (!system.cholesky.factor(H, shift)) continue;
+    }
     system.shift = shift;
-    step = -system.cholesky.solve(g);
+    step = -solved(system, g);
     return step.allFinite();
   }
   return false;

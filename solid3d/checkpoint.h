@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mechanics/path.h"
 #include "solid3d/effects/friction.h"
 #include "solid3d/section_motion.h"
+#include "solid3d/solid_motion.h"
 
 namespace bight::solid3d {
 
@@ -18,7 +20,8 @@ struct SolidCheckpoint {
   double energy = 0;             ///< [E D^3]
   double contact_stiffness = 0;  ///< [E/D]; 0 without contact
   FrictionMemory friction, whole_friction;
-  double wall_s = 0;  ///< seconds that the run had taken
+  std::optional<MotionState> motion;  ///< with inertia
+  double wall_s = 0;                  ///< seconds that the run had taken
 };
 
 }  // namespace bight::solid3d

@@ -85,7 +85,7 @@ SolidResult run_solid(const Mesh& mesh, const std::vector<Vector3>& start, doubl
   };
   on_path.on_progress = [&](const PathProgress& progress) {
     // The first as early as can be: relaxing the start is long.
-    if (parameters.checkpoint_every == 0 || parameters.inertia || progress.so_far.steps < 2 ||
+    if (parameters.checkpoint_every == 0 || progress.so_far.steps < 2 ||
         (progress.so_far.steps - 2) % parameters.checkpoint_every != 0 ||
         !path_model.model().can_be_saved())
       return;

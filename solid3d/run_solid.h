@@ -34,7 +34,7 @@ struct SolidParameters {
   double penetration = 0.002;      ///< largest overlap allowed [D]; stiffened until met
   double sample_spacing = 0.05;    ///< of contact samples on the surface [D]
   double largest_move = 0.15;      ///< of a node in one Newton iteration [D]
-  int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0, or with inertia: none
+  int checkpoint_every = 4;        ///< accepted steps between checkpoints; 0: none
   double expected_tension = 1e-3;  ///< rough T at the start [E D^2]: scale of the first tolerances
   /// How the start rubs, in its axes. Empty: nothing has rubbed before it is relaxed.
   std::vector<Rub> rubs;

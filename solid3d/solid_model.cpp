@@ -28,6 +28,7 @@ SolidModel::SolidModel(const Mesh& mesh, const std::vector<Vector3>& start, doub
                        const SolidParameters& parameters, Clock::time_point began)
     : mesh_(mesh),
       parameters_(parameters),
+      start_ebar_(start_ebar),
       symmetry_(parameters.symmetry && parameters.gravity == Vector3::Zero()
                     ? TwoFold::find(mesh, start)
                     : std::nullopt),
@@ -217,6 +218,7 @@ SolidCheckpoint SolidModel::saved() const {
   at.tension = tension_;
   at.energy = energy_;
   at.wall_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+  if (motion_) at.motion = motion_->now();
   if (effects_.contact) at.contact_stiffness = effects_.contact->law().stiffness;
   if (effects_.friction) at.friction = effects_.friction->memory();
   if (symmetry_ && effects_.friction) at.whole_friction = whole_effects_.friction->memory();
@@ -231,6 +233,7 @@ void SolidModel::restore(const SolidCheckpoint& at) {
   if (effects_.contact) effects_.contact->law().stiffness = at.contact_stiffness;
   if (effects_.friction) effects_.friction->remember(at.friction);
   if (symmetry_ && effects_.friction) whole_effects_.friction->remember(at.whole_friction);
+  if (at.motion) set_in_motion(*at.motion);
 }
 
 double SolidModel::largest_inner(const Vector& gradient) const {

@@ -81,7 +81,7 @@ class SolidModel final : public PathModel {
   /// Takes a state over as the newest one and measures it.
   StepRow take(const NewtonResult& result, double ebar);
 
-  void set_in_motion();
+  void set_in_motion(const MotionState& from);
   NewtonResult move_to(double ebar);
   void move_grips(double time, Vector& x, Vector& v) const;
   void follow_overlap(double moved);
@@ -132,6 +132,7 @@ class SolidModel final : public PathModel {
 
   const Mesh& mesh_;
   const SolidParameters& parameters_;
+  double start_ebar_;
   std::optional<TwoFold> symmetry_;  ///< then one half is simulated
   Eigen::Isometry3d from_frame_;     ///< of the model, to where the start was given
   Grip grip_;

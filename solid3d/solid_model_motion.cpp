@@ -19,10 +19,10 @@ const double bending_speed = std::sqrt((std::numbers::pi / 64) / (std::numbers::
 
 }  // namespace
 
-void SolidModel::set_in_motion() {
-  const double length = mesh_.s.back(), start_ebar = history_.back().ebar;
+void SolidModel::set_in_motion(const MotionState& from) {
+  const double length = mesh_.s.back();
   std::vector<double> waypoints = parameters_.path.waypoints;
-  waypoints.insert(waypoints.begin(), start_ebar);
+  waypoints.insert(waypoints.begin(), start_ebar_);
   ends_.emplace(waypoints, parameters_.speed, rise_waves * length);
   MotionParameters motion;
   motion.damping.alpha = parameters_.damping;
@@ -38,7 +38,7 @@ void SolidModel::set_in_motion() {
         return effects_.friction ? rubbing_.solve(system_, guess, options(), tension_, observer_)
                                  : newton(system_, guess, options(), observer_);
       },
-      newest(), Vector::Zero(newest().size()));
+      from);
 }
 
 void SolidModel::move_grips(double time, Vector& x, Vector& v) const {
@@ -58,7 +58,7 @@ void SolidModel::follow_overlap(double moved) {
 }
 
 NewtonResult SolidModel::move_to(double ebar) {
-  if (!motion_) set_in_motion();
+  if (!motion_) set_in_motion({.x = newest(), .v = Vector::Zero(newest().size())});
   NewtonResult result;
   const int iterations = motion_->iterations(), factorisations = motion_->factorisations();
   const double last = ends_->next(ebar, motion_->time());

@@ -13,21 +13,27 @@ InertialPull* add_pull(EffectList& effects, const Unknowns& unknowns, const Vect
   return raw;
 }
 
+DynamicsOptions begun(DynamicsOptions options, const MotionState& from) {
+  if (from.next_step > 0) options.first_step = from.next_step;
+  return options;
+}
+
 }  // namespace
 
 SolidMotion::SolidMotion(System& system, EffectList& effects, const Vector& mass, int copies,
-                         const MotionParameters& parameters, Minimise minimise, const Vector& x,
-                         const Vector& v)
+                         const MotionParameters& parameters, Minimise minimise,
+                         const MotionState& from)
     : system_(system),
       effects_(effects),
       copies_(copies),
       parameters_(parameters),
       minimise_(std::move(minimise)),
-      mass_(system.assembler.unknowns().moved_mass(x, mass)),
+      mass_(system.assembler.unknowns().moved_mass(from.x, mass)),
       pull_(add_pull(effects, system.assembler.unknowns(), mass_)),
       dynamics_({system.assembler, mass_, parameters.damping.alpha, parameters.prescribe,
                  [this](const Stage& stage) { return solve(stage); }},
-                parameters.options, 0, x, v) {}
+                begun(parameters.options, from), from.time, from.x, from.v),
+      dissipated_(from.dissipated) {}
 
 SolidMotion::~SolidMotion() {
   std::erase_if(effects_, [this](const auto& effect) { return effect.get() == pull_; });

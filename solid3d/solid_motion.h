@@ -9,6 +9,14 @@
 
 namespace bight::solid3d {
 
+/// All that the motion to come depends on, besides the forces.
+struct MotionState {
+  double time = 0;
+  Vector x, v;            ///< by coordinates
+  double next_step = 0;   ///< of time; 0: to be chosen
+  double dissipated = 0;  ///< lost to damping so far [E D^3]
+};
+
 /// A solid in motion, with inertia. Every stage of a time step is an equilibrium under the pull of
 /// its inertia, found by the Newton that finds equilibria at rest: sections turn through the
 /// exponential map, pressures are unknowns of their cells, no strand passes another.
@@ -21,8 +29,7 @@ class SolidMotion {
   /// `mass`: of the nodes; carried ones are moved to their angles. `copies`: 2 where one half is
   /// simulated with its image.
   SolidMotion(System& system, EffectList& effects, const Vector& mass, int copies,
-              const MotionParameters& parameters, Minimise minimise, const Vector& x,
-              const Vector& v);
+              const MotionParameters& parameters, Minimise minimise, const MotionState& from);
   ~SolidMotion();
   SolidMotion(const SolidMotion&) = delete;
   SolidMotion& operator=(const SolidMotion&) = delete;
@@ -32,6 +39,7 @@ class SolidMotion {
   /// Steps until `last`.
   bool go(double last);
 
+  MotionState now() const { return {time(), x(), v(), dynamics_.next_step(), dissipated_}; }
   double time() const { return dynamics_.time(); }
   const Vector& x() const { return dynamics_.x(); }
   const Vector& v() const { return dynamics_.v(); }
@@ -69,7 +77,7 @@ class SolidMotion {
   Vector mass_;
   InertialPull* pull_;  ///< in the list of effects
   Dynamics dynamics_;
-  double dissipated_ = 0, residual_ = 0;
+  double dissipated_, residual_ = 0;
   int iterations_ = 0, factorisations_ = 0;
   std::string reason_;
 };

@@ -154,7 +154,8 @@ std::unique_ptr<SolidMotion> SolidProblem::release(const Vector& velocity,
   const Vector mass = lumped_mass(hexahedra(strands_), static_cast<int>(state().size()));
   return std::make_unique<SolidMotion>(
       solver_->system, effects_.list, mass, 1, parameters,
-      [this](const Vector& guess) { return minimise(guess); }, state(), velocity);
+      [this](const Vector& guess) { return minimise(guess); },
+      MotionState{.x = state(), .v = velocity});
 }
 
 /// Held coordinates where they are to be at t.

@@ -22,6 +22,7 @@ Checkpoint example(int steps) {
   at.solid.friction.elastic_slip = {{3, Vector2(0.001, -1e-17)}, {8, Vector2(1.0 / 7, 0)}};
   at.solid.friction.dissipated = 0.1;
   at.solid.whole_friction.dissipated = 0.2;
+  at.solid.motion = {1e4 / 3, Vector::Random(30), Vector::Random(30), 0.7, 1e-9 / 3};
   StepRow row;
   row.ebar = 17.5, row.tension = 0.1 + 0.2, row.cut_reason = "friction does not settle";
   at.rows = {row};
@@ -59,6 +60,12 @@ TEST_CASE("a checkpoint reads back exactly") {
   CHECK(back->solid.friction.elastic_slip == at.solid.friction.elastic_slip);
   CHECK(back->solid.friction.dissipated == 0.1);
   CHECK(back->solid.whole_friction.dissipated == 0.2);
+  REQUIRE(back->solid.motion);
+  CHECK(back->solid.motion->time == at.solid.motion->time);
+  CHECK(back->solid.motion->x == at.solid.motion->x);
+  CHECK(back->solid.motion->v == at.solid.motion->v);
+  CHECK(back->solid.motion->next_step == 0.7);
+  CHECK(back->solid.motion->dissipated == at.solid.motion->dissipated);
   REQUIRE(back->rows.size() == 1);
   CHECK(back->rows[0].tension == 0.1 + 0.2);
   CHECK(back->rows[0].cut_reason == "friction does not settle");
