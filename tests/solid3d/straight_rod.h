@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <ctime>
+#include <map>
 #include <stdexcept>
 
 #include "mechanics/newton.h"
@@ -30,6 +31,7 @@ struct RodSolution {
   NewtonResult newton;
   double cpu_seconds = 0;  ///< of all threads
   int unknowns = 0;
+  std::map<std::string, double> wall_seconds = {};  ///< by phase
 };
 
 /// Equilibrium of a rod whose flat end sections are moved as those of a rod of uniform
@@ -69,7 +71,8 @@ inline RodSolution bent_rod(const RodOf& rod, double length, const Strains& stra
   const std::clock_t began = std::clock();
   const NewtonResult result = newton(system, x, options);
   if (!result.ok()) throw std::runtime_error("straight rod: " + result.reason);
-  return {result, static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, unknowns.size()};
+  return {result, static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, unknowns.size(),
+          system.seconds};
 }
 
 /// Stiffness from the energies of two lengths, so that the effect of the flat ends cancels:
