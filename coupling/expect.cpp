@@ -42,13 +42,14 @@ std::string rod_line(const Scene& scene) {
                      costs_text(costs), left_out(scene, &KnownEffect::in_rod));
 }
 
-// The knot takes about ebar + 6 D of the rod; the mesh is laid out when its true place is known.
+// Fine cells take about 14 D + 1.2 ebar of the rod; the mesh is laid out when the knot's true place
+// is known.
 solid3d::Mesh expected_mesh(const Scene& scene, int cells, double ebar) {
   const solid3d::Section section =
       solid3d::make_section(cells, solid3d::hex_element(scene.element).degree);
   const double width = section.cell_width();
   const double middle = 0.5 * scene.slenderness();
-  const double half = std::min(middle, 0.5 * (ebar + 6));
+  const double half = std::min(middle, 0.5 * std::max(20.0, 14 + 1.2 * ebar));
   return solid3d::make_mesh(
       section, solid3d::graded_layers(scene.slenderness(), scene.axial_ratio * width,
                                       scene.tail_ratio * width, middle - half, middle + half));

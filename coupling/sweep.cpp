@@ -68,9 +68,10 @@ double roll_of_middle(const solid3d::Mesh& mesh, const std::vector<Matrix3>& fra
 solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod) {
   const solid3d::Section section = solid3d::make_section(options.section_elements, options.degree);
   const double width = section.cell_width();
-  // The knot: where kappa D is above most_bent, or above a part of the largest one. Tails are
-  // nearly straight; those of a loose knot are not, against its own curvature.
-  constexpr double most_bent = 0.02, part = 0.1;
+  // The knot: where kappa D is above most_bent, or above a part of the largest one. That covers
+  // all contact, and more. What bends less stores 1 % of the knot's energy by length; there cells
+  // of length h are too stiff by 4/9 (h/D)^2: they shear by kappa z, |z| < h/2, with G = E/3.
+  constexpr double most_bent = 0.06, part = 0.1;
   const double bent =
       std::min(most_bent, part * *std::max_element(rod.curvature.begin(), rod.curvature.end()));
   double begin = rod.s.back(), end = 0;
@@ -79,12 +80,17 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
       begin = std::min(begin, rod.s[i]);
       end = std::max(end, rod.s[i]);
     }
-  // Equal tails, so that a knot tied in the middle keeps its symmetry in the mesh.
-  const double length = rod.s.back();
-  const double tail = std::max(0.0, std::min(begin, length - end) - options.knot_margin);
-  return solid3d::make_mesh(
-      section, solid3d::graded_layers(length, options.axial_ratio * width,
-                                      options.tail_ratio * width, tail, length - tail));
+  // Equal tails, so that a knot tied in the middle keeps its symmetry in the mesh. Layers in the
+  // knot lie where those of a mesh without tails do: how far they reach makes no difference to
+  // contact.
+  const double half = 0.5 * rod.s.back();
+  const double fine = half / std::ceil(half / (options.axial_ratio * width));
+  const double reach =
+      half - std::min(begin, rod.s.back() - end) + options.knot_margin + 0.5 * options.loosened_by;
+  const double covered = std::min(half, fine * std::ceil(reach / fine));
+  return solid3d::make_mesh(section,
+                            solid3d::graded_layers(rod.s.back(), fine, options.tail_ratio * width,
+                                                   half - covered, half + covered));
 }
 
 std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod) {

@@ -15,6 +15,8 @@ struct SweepOptions {
                              ///< the surface grid is as fine around as along
   double tail_ratio = 3.0;   ///< the same at the ends of the tails
   double knot_margin = 2.0;  ///< fine cells reach this far beyond the knot [D]
+  double loosened_by =
+      0;  ///< by which the path takes more rod into the knot than it begins with [D]
 };
 
 /// The mesh of a straight rod of that length whose fine part covers the rod's knot.

@@ -66,7 +66,7 @@ std::vector<double> graded_layers(double length, double fine, double coarse, dou
   std::reverse(spacings.begin(), spacings.end());
   // An even number, so that a layer lies in the middle.
   const int middle =
-      2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine))));
+      2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine) - 1e-9)));
   if (knot_end > knot_begin)
     spacings.insert(spacings.end(), static_cast<size_t>(middle), (knot_end - knot_begin) / middle);
   const std::vector<double> last = tail(length - knot_end);

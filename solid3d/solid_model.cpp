@@ -91,8 +91,13 @@ Vector SolidModel::held(Vector x, double ebar) const {
 /// The guess of least energy. Where the path is not smooth (strands slip over a coarse mesh) the
 /// last two states foretell more than the last three. Friction counts as if its limits stayed.
 Vector SolidModel::best_guess(const Vector& guess, double ebar) {
-  if (history_.size() < 2 || ebar == history_.back().ebar) return guess;
+  if (ebar == history_.back().ebar) return guess;
   if (effects_.friction) rubbing_.freeze_last();
+  if (history_.size() < 2) {
+    const Vector sliding =
+        held(sliding_guess(mesh_, newest(), held(newest(), ebar), internal_begin_), ebar);
+    return energy(sliding) < energy(guess) ? sliding : guess;
+  }
   const std::vector<Station> two(history_.end() - 2, history_.end());
   const Vector straight = held(extrapolate_sections(mesh_, two, ebar), ebar);
   const Vector travelling =

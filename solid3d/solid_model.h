@@ -61,6 +61,7 @@ class SolidModel final : public PathModel {
   NewtonResult relax_at_once(const Vector& start);
   NewtonResult relax_slowly();
   NewtonResult settle(const Vector& start);
+  NewtonResult settle_or_minimise(const Vector& guess);
   NewtonResult solve_frictionless(const Vector& guess);
   NewtonResult stiffened(NewtonResult solved);
   /// Normal forces, facing points and tangents are frozen, then taken from the solution, until the

@@ -49,7 +49,9 @@ NewtonResult SolidModel::solve_at_rest(const Vector& guess, double ebar) {
   system_.shift = unknown_shift;
   start_energy_ = 0;
   const Vector best = best_guess(guess, ebar);
-  return effects_.friction ? solve_with_friction(best) : solve_frictionless(best);
+  if (effects_.friction) return solve_with_friction(best);
+  // The first guess is not true to volume, as the start was not.
+  return history_.size() < 2 ? settle_or_minimise(best) : solve_frictionless(best);
 }
 
 NewtonResult SolidModel::solve_frictionless(const Vector& guess) {

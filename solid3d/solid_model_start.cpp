@@ -39,10 +39,13 @@ NewtonResult SolidModel::relax(const Vector& start) {
 
 NewtonResult SolidModel::relax_at_once(const Vector& start) {
   system_.shift = unknown_shift;
-  if (effects_.friction) return solve_with_friction(start);
-  const NewtonResult settled = settle(start);
+  return effects_.friction ? solve_with_friction(start) : settle_or_minimise(start);
+}
+
+NewtonResult SolidModel::settle_or_minimise(const Vector& guess) {
+  const NewtonResult settled = settle(guess);
   if (settled.ok()) return stiffened(settled);
-  NewtonResult result = solve_frictionless(start);
+  NewtonResult result = solve_frictionless(guess);
   result.count_on(settled);
   return result;
 }

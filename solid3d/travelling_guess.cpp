@@ -153,4 +153,43 @@ Vector travelling_guess(const Mesh& mesh, const std::vector<Station>& states, do
   return x;
 }
 
+Vector sliding_guess(const Mesh& mesh, const Vector& state, Vector ends, int internal_begin) {
+  const int last = mesh.layers() - 1, points = mesh.points_per_layer();
+  if (last < 4) return ends;
+  const Sections now(mesh, state);
+  std::vector<double> arc{0};
+  for (int k = 1; k <= last; ++k)
+    arc.push_back(arc.back() + (now.places[k].centre - now.places[k - 1].centre).norm());
+  const std::vector<SectionPlace> moved = section_places(mesh, ends);
+  const auto slides = [&](int k) {
+    return now.places[k].rotation.col(2).dot(moved[k].centre - now.places[k].centre);
+  };
+  const double first = slides(0), stretch = 1 + (slides(last) - first) / arc.back();
+  if (!(stretch > 0)) return ends;
+
+  std::vector<double> will_be(arc.size());
+  for (int k = 1; k < last; ++k) {
+    const double there = first + stretch * arc[k];
+    const auto next =
+        std::clamp(std::ranges::upper_bound(arc, there), arc.begin() + 1, arc.end() - 1);
+    const double layer =
+        static_cast<double>(next - arc.begin()) - (*next - there) / (*next - *(next - 1));
+    will_be[k] = now.inside(layer);
+    SectionPlace place = now.place(will_be[k]);
+    if (layer != will_be[k])  // beyond an end, which is straight
+      place.centre += place.rotation.col(2) * (there - (layer < 0 ? 0 : arc.back()));
+    const Vector shape = Between(will_be[k], mesh.layers()).of(now.shapes) / std::sqrt(stretch);
+    for (int p = 0; p < points; ++p)
+      ends.segment<3>(3 * mesh.node(k, p)) =
+          place.centre + place.rotation * shape.segment<3>(3 * p);
+  }
+  will_be[last] = last;
+  const Eigen::MatrixXd internals_now = internals(mesh, state, internal_begin);
+  const int columns = static_cast<int>(internals_now.cols());
+  for (int c = 0; c < columns; ++c)
+    ends.segment(internal_begin + c * internals_now.rows(), internals_now.rows()) =
+        Between(column_at(mesh, will_be, c), columns).of(internals_now);
+  return ends;
+}
+
 }  // namespace bight::solid3d

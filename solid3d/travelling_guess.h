@@ -17,4 +17,11 @@ namespace bight::solid3d {
 Vector travelling_guess(const Mesh& mesh, const std::vector<Station>& states, double ebar, Vector x,
                         int internal_begin);
 
+/// Guess for the first step from a state, where nothing has moved before, and where the tangent,
+/// nearly singular for a knot that slides, foretells nothing: every section slides along the
+/// present centerline, those at the ends as far as in `ends` (the state with its grips moved),
+/// those between them in proportion, and takes over the shape and the internal coordinates found
+/// there, thinner as it is stretched, 1/sqrt(stretch).
+Vector sliding_guess(const Mesh& mesh, const Vector& state, Vector ends, int internal_begin);
+
 }  // namespace bight::solid3d

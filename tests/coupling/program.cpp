@@ -168,7 +168,7 @@ TEST_CASE("a state is confirmed on a finer section, also by a resumed run") {
   const TemporaryFolder folder;
   folder.write("knot.toml",
                small_scene_with("[30, 20]", "[20, 19]\nmax_step = 0.25") +
-                   "[solid3d]\nsection_elements = 12\naxial_ratio = 1.5\nconfirm_at = [20]\n"
+                   "[solid3d]\nsection_elements = 12\naxial_ratio = 1.2\nconfirm_at = [20]\n"
                    "confirm_elements = 21\n");
   const Outcome whole = call(folder, "solid knot.toml --out whole");
   REQUIRE(whole.status == 0);

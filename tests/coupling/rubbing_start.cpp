@@ -40,12 +40,13 @@ Tightened tightened(const solid3d::Mesh& mesh, const std::vector<Vector3>& start
   return out;
 }
 
-solid3d::Mesh mesh_of(const rod1d::RodState& rod, int cells) {
-  return swept_mesh({.section_elements = cells, .axial_ratio = 1.0}, rod);
+solid3d::Mesh mesh_of(const rod1d::RodState& rod, int cells, double axial_ratio = 1.0) {
+  return swept_mesh({.section_elements = cells, .axial_ratio = axial_ratio}, rod);
 }
 
-Tightened from_rod(const rod1d::RodState& rod, int cells, const std::vector<double>& waypoints) {
-  const solid3d::Mesh mesh = mesh_of(rod, cells);
+Tightened from_rod(const rod1d::RodState& rod, int cells, const std::vector<double>& waypoints,
+                   double axial_ratio = 1.0) {
+  const solid3d::Mesh mesh = mesh_of(rod, cells, axial_ratio);
   return tightened(mesh, sweep(mesh, rod), rod.tension, rod.rubs, waypoints);
 }
 
@@ -112,12 +113,14 @@ TEST_CASE(
   parameters.from_straight = true;
   parameters.friction = friction;
   parameters.twist = true;
-  parameters.path.waypoints = {28, 22};
-  parameters.path.record = {24, 22};
+  parameters.path.waypoints = {28, 24};
+  parameters.path.record = {26, 24};
   const auto states = rod1d::run_rod(parameters).states;
-  const Tightened begun = from_rod(states.at(1), 12, {22});
+  // Short cells: strands catch at long ones, and T of a path ripples by 2 %.
+  const Tightened begun = from_rod(states.at(1), 12, {24}, 0.5);
   CHECK(begun.result.symmetric);
-  CHECK(begun.tension() == Approx(from_rod(states.at(0), 12, {24, 22}).tension()).epsilon(0.02));
+  const double path = from_rod(states.at(0), 12, {26, 24}, 0.5).tension();
+  CHECK(begun.tension() == Approx(path).epsilon(0.02));
   CHECK(begun.result.steps[0].dissipated < 1e-3 * begun.result.steps[0].energy);
   CHECK(begun.result.outcome.iterations < 100);
 }

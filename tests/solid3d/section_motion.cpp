@@ -1,7 +1,10 @@
 #include "solid3d/section_motion.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "solid3d/travelling_guess.h"
 #include "tests/solid3d/shapes.h"
@@ -176,4 +179,59 @@ TEST_CASE("a rod that turns about itself and slides is foreseen exactly") {
   const Vector guess =
       travelling_guess(mesh, states, 9.2, extrapolate_sections(mesh, states, 9.2), internal);
   CHECK((guess - at(9.2).x).norm() < 1e-10);
+}
+
+TEST_CASE("before anything has moved, sections slide along the rod as far as its ends are moved") {
+  const Mesh mesh = test::straight_mesh(12, 8.0, 0.7);
+  const int internal = 3 * mesh.nodes() + 2;
+  Vector x = test::reference_state(mesh, 2 + 2 * static_cast<int>(mesh.cells.size()));
+  x.tail(x.size() - internal).setConstant(0.01);
+  Vector ends = x;
+  const int last = mesh.layers() - 1;
+  for (int p = 0; p < mesh.points_per_layer(); ++p) {
+    ends[3 * mesh.node(0, p) + 2] -= 0.5;
+    ends[3 * mesh.node(last, p) + 2] += 1.5;
+  }
+  const Vector guess = sliding_guess(mesh, x, ends, internal);
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const Vector3 X = mesh.reference(n);
+    const bool held = n < mesh.points_per_layer() || n >= mesh.node(last, 0);
+    const double wide = held ? 1 : 1 / std::sqrt(1.25);
+    CHECK(
+        (guess.segment<3>(3 * n) - Vector3(wide * X.x(), wide * X.y(), 1.25 * X.z() - 0.5)).norm() <
+        1e-10);
+  }
+  CHECK((guess - x).tail(x.size() - internal).norm() < 1e-12);
+}
+
+TEST_CASE("sliding, sections follow the bends of the rod") {
+  // A quarter of a circle between straight ends, 20 D long; both ends are pulled out by 0.3 D.
+  const Mesh mesh = test::straight_mesh(12, 20.0, 0.4);
+  const int internal = 3 * mesh.nodes() + 2;
+  const double radius = 5, arc = 0.5 * std::numbers::pi * radius, begin = 10 - 0.5 * arc;
+  const auto place = [&](double s) {
+    const double turn = std::clamp((s - begin) / radius, 0.0, 0.5 * std::numbers::pi);
+    const Vector3 tangent(std::sin(turn), 0, std::cos(turn));
+    const double straight = s - std::clamp(s, begin, begin + arc);
+    return SectionPlace{
+        Vector3(radius * (1 - std::cos(turn)), 0, radius * std::sin(turn)) + straight * tangent,
+        Eigen::AngleAxisd(turn, Vector3::UnitY()).toRotationMatrix()};
+  };
+  const auto put = [&](Vector& x, int layer, double s) {
+    for (int p = 0; p < mesh.points_per_layer(); ++p) {
+      const Vector3 X = mesh.reference(mesh.node(layer, p));
+      x.segment<3>(3 * mesh.node(layer, p)) =
+          place(s).centre + place(s).rotation * Vector3(X.x(), X.y(), 0);
+    }
+  };
+  Vector x = test::reference_state(mesh, 2 + 2 * static_cast<int>(mesh.cells.size()));
+  for (int k = 0; k < mesh.layers(); ++k) put(x, k, mesh.s[k]);
+  Vector ends = x;
+  put(ends, 0, -0.3), put(ends, mesh.layers() - 1, 20.3);
+  const auto guess = section_places(mesh, sliding_guess(mesh, x, ends, internal));
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const SectionPlace expected = place(1.03 * mesh.s[k] - 0.3);
+    CHECK((guess[k].centre - expected.centre).norm() < 0.01);
+    CHECK((guess[k].rotation - expected.rotation).norm() < 0.03);
+  }
 }
