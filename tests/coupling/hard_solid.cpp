@@ -15,11 +15,13 @@ TEST_CASE("hard: solid to ebar -10", "[.hard]") {
 }
 
 TEST_CASE("hard: solid to ebar -10, steps of 10", "[.hard]") {
-  const Settings solid = {"path.ebar=[20, -10]", "path.record=[20, 10, 0, -10]"};
+  const Settings solid = {"path.ebar=[20, -10]", "path.record=[20, 10, 0, -10]",
+                          "solid3d.axial_ratio=0.4"};
   const Result steps = run("solid", solid + Settings{"path.max_step=10"});
   must_hold(steps, {.balance = 0});
-  // The strands come to rest in other ripples of a surface of 12 sides.
-  same_as(run("solid", solid), steps, 0.025, 2e-3);
+  // The strands come to rest in other ripples of a surface of 12 sides; those of longer cells
+  // differ by 4 % in T.
+  same_as(run("solid", solid), steps, 0.005, 2e-3);
 }
 
 TEST_CASE("hard: solid to ebar -10 with mu = 1.0", "[.hard]") {
