@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace bight::solid3d {
 
@@ -50,20 +51,23 @@ std::vector<double> graded_layers(double length, double fine, double coarse, dou
   knot_begin = std::clamp(knot_begin, 0.0, length);
   knot_end = std::clamp(knot_end, knot_begin, length);
 
-  // Spacings of a tail from the knot outwards, stretched evenly to fill it exactly.
+  // Spacings of a tail, growing from the knot and from the grip, stretched evenly to fill it. A
+  // grip holds its section round: with long cells there a rod stretched by a quarter is too stiff.
   const auto tail = [&](double extent) {
     std::vector<double> spacings;
-    double filled = 0;
-    for (double h = fine; filled < extent - 1e-9; h = std::min(coarse, growth * h)) {
-      spacings.push_back(h);
-      filled += h;
+    for (int count = 1; extent > 1e-9; ++count) {
+      spacings.clear();
+      for (int i = 0; i < count; ++i)
+        spacings.push_back(std::min(coarse, fine * std::pow(growth, std::min(i, count - 1 - i))));
+      const double filled = std::accumulate(spacings.begin(), spacings.end(), 0.0);
+      if (filled < extent - 1e-9) continue;
+      for (double& h : spacings) h *= extent / filled;
+      break;
     }
-    for (double& h : spacings) h *= extent / filled;
     return spacings;
   };
 
   std::vector<double> spacings = tail(knot_begin);
-  std::reverse(spacings.begin(), spacings.end());
   // An even number, so that a layer lies in the middle.
   const int middle =
       2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine) - 1e-9)));

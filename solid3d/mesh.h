@@ -67,8 +67,9 @@ struct Mesh {
 /// middle.
 Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node = 0);
 
-/// Arc lengths of layers between cells: spacing `fine` between knot_begin and knot_end, growing
-/// geometrically to `coarse` in the tails. All in D; the last entry is exactly `length`.
+/// Arc lengths of layers between cells: spacing `fine` between knot_begin and knot_end and at the
+/// ends, growing geometrically to `coarse` in the tails. All in D; the last entry is exactly
+/// `length`.
 std::vector<double> graded_layers(double length, double fine, double coarse, double knot_begin,
                                   double knot_end);
 

@@ -103,5 +103,6 @@ TEST_CASE("graded layers are fine in the knot, coarse in the tails, and end exac
   for (size_t i = 1; s[i + 1] < begin; ++i) CHECK(s[i] - s[i - 1] < 1.13 * (s[i + 1] - s[i]));
   CHECK(coarsest <= 0.4);
   CHECK(coarsest > 0.3);
+  CHECK(s[1] <= 0.1 + 1e-12);  // at the grip, too
   CHECK(s.size() % 2 == 1);
 }
