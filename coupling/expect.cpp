@@ -52,7 +52,8 @@ solid3d::Mesh expected_mesh(const Scene& scene, int cells, double ebar) {
   const double half = std::min(middle, 0.5 * std::max(20.0, 14 + 1.2 * ebar));
   return solid3d::make_mesh(
       section, solid3d::graded_layers(scene.slenderness(), scene.axial_ratio * width,
-                                      scene.tail_ratio * width, middle - half, middle + half));
+                                      scene.tail_ratio * width, middle - half, middle + half,
+                                      solid3d::TailEnds::fine));
 }
 
 std::string size_text(const Scene& scene, const solid3d::Mesh& mesh) {

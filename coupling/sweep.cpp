@@ -88,9 +88,11 @@ solid3d::Mesh swept_mesh(const SweepOptions& options, const rod1d::RodState& rod
   const double reach =
       half - std::min(begin, rod.s.back() - end) + options.knot_margin + 0.5 * options.loosened_by;
   const double covered = std::min(half, fine * std::ceil(reach / fine));
-  return solid3d::make_mesh(section,
-                            solid3d::graded_layers(rod.s.back(), fine, options.tail_ratio * width,
-                                                   half - covered, half + covered));
+  // A grip holds its section round: with long cells there a rod stretched by a quarter is too
+  // stiff.
+  return solid3d::make_mesh(
+      section, solid3d::graded_layers(rod.s.back(), fine, options.tail_ratio * width,
+                                      half - covered, half + covered, solid3d::TailEnds::fine));
 }
 
 std::vector<Vector3> sweep(const solid3d::Mesh& mesh, const rod1d::RodState& rod) {

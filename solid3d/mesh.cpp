@@ -46,7 +46,7 @@ Mesh make_mesh(const Section& section, const std::vector<double>& layers, int fi
 }
 
 std::vector<double> graded_layers(double length, double fine, double coarse, double knot_begin,
-                                  double knot_end) {
+                                  double knot_end, TailEnds ends) {
   constexpr double growth = 1.12;  // of neighbouring layers in a tail
   knot_begin = std::clamp(knot_begin, 0.0, length);
   knot_end = std::clamp(knot_end, knot_begin, length);
@@ -58,7 +58,9 @@ std::vector<double> graded_layers(double length, double fine, double coarse, dou
     for (int count = 1; extent > 1e-9; ++count) {
       spacings.clear();
       for (int i = 0; i < count; ++i)
-        spacings.push_back(std::min(coarse, fine * std::pow(growth, std::min(i, count - 1 - i))));
+        spacings.push_back(std::min(
+            coarse,
+            fine * std::pow(growth, ends == TailEnds::fine ? std::min(i, count - 1 - i) : i)));
       const double filled = std::accumulate(spacings.begin(), spacings.end(), 0.0);
       if (filled < extent - 1e-9) continue;
       for (double& h : spacings) h *= extent / filled;
@@ -68,6 +70,7 @@ std::vector<double> graded_layers(double length, double fine, double coarse, dou
   };
 
   std::vector<double> spacings = tail(knot_begin);
+  std::reverse(spacings.begin(), spacings.end());
   // An even number, so that a layer lies in the middle.
   const int middle =
       2 * std::max(1, static_cast<int>(std::ceil((knot_end - knot_begin) / (2 * fine) - 1e-9)));
