@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
+
 #include "coupling/checkpoint.h"
 #include "coupling/compare.h"
 #include "coupling/compare_centerlines.h"
@@ -29,9 +31,11 @@ void run_seeded_solid(const Scene& scene, Recorder& recorder, const std::optiona
                       RunReport& report) {
   recorder.phases.enter("seed");
   const rod1d::RodState& seed = *recorder.seed;
-  const solid3d::Mesh mesh = swept_mesh(sweep_options(scene, scene.section_elements), seed);
-  const std::vector<Vector3> start = sweep(mesh, seed);
   solid3d::SolidParameters parameters = solid_parameters(scene);
+  SweepOptions options = sweep_options(scene, scene.section_elements);
+  options.loosened_by = std::ranges::max(parameters.path.waypoints) - seed.ebar;
+  const solid3d::Mesh mesh = swept_mesh(options, seed);
+  const std::vector<Vector3> start = sweep(mesh, seed);
   parameters.expected_tension = seed.tension;
   parameters.rubs = seed.rubs;
   solid3d::SolidResult result =

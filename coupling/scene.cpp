@@ -220,9 +220,7 @@ SweepOptions sweep_options(const Scene& scene, int section_elements) {
   return {.section_elements = section_elements,
           .degree = solid3d::hex_element(scene.element).degree,
           .axial_ratio = scene.axial_ratio,
-          .tail_ratio = scene.tail_ratio,
-          .loosened_by = std::ranges::max(path_from_seed(scene.path, scene.seed_ebar).waypoints) -
-                         scene.seed_ebar};
+          .tail_ratio = scene.tail_ratio};
 }
 
 solid3d::SolidParameters solid_parameters(const Scene& scene) {

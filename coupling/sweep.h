@@ -15,8 +15,9 @@ struct SweepOptions {
                              ///< the surface grid is as fine around as along
   double tail_ratio = 3.0;   ///< the same at the ends of the tails
   double knot_margin = 2.0;  ///< fine cells reach this far beyond the knot [D]
-  double loosened_by =
-      0;  ///< by which the path takes more rod into the knot than it begins with [D]
+  /// By how much ebar rises above that of the rod on the path to come: so much more of the rod is
+  /// in the knot then [D].
+  double loosened_by = 0;
 };
 
 /// The mesh of a straight rod of that length whose fine part covers the rod's knot.

@@ -67,10 +67,12 @@ struct Mesh {
 /// middle.
 Mesh make_mesh(const Section& section, const std::vector<double>& layers, int first_node = 0);
 
+/// How long cells are where the tails of a rod end.
+enum class TailEnds { coarse, fine };
+
 /// Arc lengths of layers between cells: spacing `fine` between knot_begin and knot_end, growing
 /// geometrically to `coarse` in the tails, which may be `fine` again at their ends. All in D; the
 /// last entry is exactly `length`.
-enum class TailEnds { coarse, fine };
 std::vector<double> graded_layers(double length, double fine, double coarse, double knot_begin,
                                   double knot_end, TailEnds ends = TailEnds::coarse);
 
