@@ -12,7 +12,9 @@ namespace bight::solid3d {
 
 namespace {
 
-/// Layers next to an end keep the other guess: there is no neighbour to learn from.
+/// Near its ends a rod keeps the other guess, over this length [D] and so many layers at least:
+/// what a grip does to its neighbourhood moves with the grip.
+constexpr double kept_length = 1.5;
 constexpr int kept_layers = 6;
 
 /// Cubic interpolation (Lagrange) between columns or layers: of the four around a place.
@@ -130,7 +132,8 @@ Vector travelling_guess(const Mesh& mesh, const std::vector<Station>& states, do
     internals_change.col(c) -= Between(column_at(mesh, was, c), columns).of(internals_before);
 
   const auto travels = [&](int k) {
-    return k >= kept_layers && k < layers - kept_layers && now.inside(will_be[k]) == will_be[k];
+    return k >= kept_layers && k < layers - kept_layers && mesh.s[k] > kept_length &&
+           mesh.s[k] < mesh.s.back() - kept_length && now.inside(will_be[k]) == will_be[k];
   };
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < layers; ++k) {

@@ -164,6 +164,20 @@ TEST_CASE("a guess travels with the rod past what stays at rest in space") {
   CHECK(error_inside(travelling) < 0.1 * error_inside(by_section));
 }
 
+TEST_CASE("next to its grips a rod keeps the other guess: what a grip does moves with it") {
+  const Mesh mesh = test::straight_mesh(12, 8.0, 0.4);
+  const std::vector<Station> states{sliding(mesh, 10.4), sliding(mesh, 10.0)};
+  const Vector other = extrapolate_sections(mesh, states, 9.5);
+  const Vector guess = travelling_guess(mesh, states, 9.5, other, 3 * mesh.nodes() + 2);
+  for (int k = 0; k < mesh.layers(); ++k) {
+    const int first = 3 * mesh.node(k, 0), count = 3 * mesh.points_per_layer();
+    const double change = (guess - other).segment(first, count).norm();
+    const double to_grip = std::min(mesh.s[k], mesh.s.back() - mesh.s[k]);
+    if (to_grip < 1.5) CHECK(change == 0);
+    if (to_grip > 3) CHECK(change > 0);
+  }
+}
+
 TEST_CASE("a rod that turns about itself and slides is foreseen exactly") {
   const Mesh mesh = test::straight_mesh(12, 8.0, 0.7);
   const int internal = 3 * mesh.nodes() + 2;
