@@ -27,8 +27,6 @@ namespace {
 
 /// Columns that a panel eliminates at a time; tiles of products and of solves with a panel.
 constexpr int block = 32, tile = 96, tall_tile = 256;
-/// Share of all flops that a subtree may have to be factored by one thread.
-constexpr double subtree_share = 0.1;
 /// Tiles of a front are shared by the threads from this many flops on.
 constexpr double parallel_flops = 4e6;
 
@@ -123,7 +121,7 @@ Multifrontal::Multifrontal(Supernodes supernodes, const SymmetricMatrix& pattern
               s);
     panel_.push_back(panel_.back() + static_cast<std::int64_t>(rows(s)) * columns(s));
   }
-  L_.resize(static_cast<size_t>(panel_.back()));
+  L_.reset(new double[static_cast<size_t>(panel_.back())]);
   update_.resize(static_cast<size_t>(count));
   plan_tree();
   plan_entries(pattern);
@@ -134,21 +132,14 @@ void Multifrontal::plan_tree() {
   parent_.assign(count, -1);
   children_.resize(count);
   std::vector<double> flops(count);
-  std::vector<int> first_descendant(count);
-  std::iota(first_descendant.begin(), first_descendant.end(), 0);
-  double total = 0;
   for (int s = 0; s < count; ++s) {
-    const double own = front_flops(rows(s), columns(s));
-    total += own;
-    flops[s] += own;
+    flops[s] = front_flops(rows(s), columns(s));
     run_begin_.push_back(static_cast<std::int64_t>(runs_.size()));
     if (rows(s) == columns(s)) continue;
     const int* mine = nodes_.row.data() + nodes_.begin[s];
     const int p = owner_[mine[columns(s)]];
     parent_[s] = p;
     children_[p].push_back(s);
-    flops[p] += flops[s];
-    first_descendant[p] = std::min(first_descendant[p], first_descendant[s]);
     // Both lists of rows ascend, and the parent's holds all of the child's but its columns.
     const int* theirs = nodes_.row.data() + nodes_.begin[p];
     int at = 0;
@@ -163,15 +154,7 @@ void Multifrontal::plan_tree() {
     }
   }
   run_begin_.push_back(static_cast<std::int64_t>(runs_.size()));
-  const double largest = subtree_share * total;
-  for (int s = 0; s < count; ++s) {
-    if (flops[s] > largest)
-      top_.push_back(s);
-    else if (parent_[s] < 0 || flops[parent_[s]] > largest)
-      subtrees_.emplace_back(first_descendant[s], s);
-  }
-  std::stable_sort(subtrees_.begin(), subtrees_.end(),
-                   [&](const auto& a, const auto& b) { return flops[a.second] > flops[b.second]; });
+  tree_ = EliminationTree(parent_, flops);
 }
 
 void Multifrontal::plan_entries(const SymmetricMatrix& pattern) {
@@ -215,8 +198,8 @@ void Multifrontal::plan_entries(const SymmetricMatrix& pattern) {
 bool Multifrontal::eliminate(int s, const SymmetricMatrix& matrix, double shift, bool parallel) {
   const int height = rows(s), width = columns(s), below = height - width;
   parallel = parallel && front_flops(height, width) > parallel_flops;
-  double* panel = L_.data() + panel_[s];
-  std::fill(panel, L_.data() + panel_[s + 1], 0.0);
+  double* panel = L_.get() + panel_[s];
+  std::fill(panel, L_.get() + panel_[s + 1], 0.0);
   for (std::int64_t e = entry_begin_[s]; e < entry_begin_[s + 1]; ++e)
     panel[entry_place_[static_cast<size_t>(e)]] += matrix.value[static_cast<size_t>(entry_[e])];
   if (shift != 0)
@@ -262,16 +245,9 @@ void Multifrontal::add_update(int child, int first, int last, double* to, int ld
 bool Multifrontal::factor(const SymmetricMatrix& matrix, double shift) {
   std::atomic<bool> positive{true};
   // Inside a parallel region BLAS stays on its caller's thread.
-#pragma omp parallel
-#pragma omp single
-  {
-    for_each(static_cast<int>(subtrees_.size()), true, [&](int i) {
-      for (int s = subtrees_[i].first; s <= subtrees_[i].second && positive; ++s)
-        if (!eliminate(s, matrix, shift, false)) positive = false;
-    });
-    for (const int s : top_)
-      if (positive && !eliminate(s, matrix, shift, true)) positive = false;
-  }
+  tree_.upwards([&](int s, bool shared) {
+    if (positive && !eliminate(s, matrix, shift, shared)) positive = false;
+  });
   if (!positive)
     for (int s = 0; s < supernodes(); ++s) update_[s].reset();
   return positive;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "mechanics/elimination_tree.h"
 #include "mechanics/symmetric_matrix.h"
 
 namespace bight {
@@ -61,14 +62,13 @@ class Multifrontal {
     int from, to, length;  ///< rows of a child's update, adjacent in the parent's rows too
   };
   std::vector<Run> runs_;
-  std::vector<std::int64_t> run_begin_;        ///< by supernode
-  std::vector<std::int64_t> panel_;            ///< where each supernode's columns of L begin
-  std::vector<std::int64_t> entry_begin_;      ///< by supernode
-  std::vector<std::int64_t> entry_;            ///< entries of the matrix, by supernode
-  std::vector<std::int64_t> entry_place_;      ///< their places in the panel
-  std::vector<std::pair<int, int>> subtrees_;  ///< first and last supernode, largest first
-  std::vector<int> top_;                       ///< supernodes above them, children first
-  std::vector<double> L_;
+  std::vector<std::int64_t> run_begin_;    ///< by supernode
+  std::vector<std::int64_t> panel_;        ///< where each supernode's columns of L begin
+  std::vector<std::int64_t> entry_begin_;  ///< by supernode
+  std::vector<std::int64_t> entry_;        ///< entries of the matrix, by supernode
+  std::vector<std::int64_t> entry_place_;  ///< their places in the panel
+  EliminationTree tree_;
+  Buffer L_;
   std::vector<Buffer> update_;  ///< of each supernode, until its parent takes it
   std::shared_ptr<Pool> pool_;
 };

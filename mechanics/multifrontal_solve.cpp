@@ -30,7 +30,7 @@ constexpr int unit_stride = 1;
 /// take from the rows below.
 void Multifrontal::substitute_forward(int s, Vector& y, double* part, bool parallel) const {
   const int height = rows(s), width = columns(s), below = height - width;
-  const double* panel = L_.data() + panel_[s];
+  const double* panel = L_.get() + panel_[s];
   double* own = y.data() + nodes_.first_column[s];
   double* rest = part + part_begin(s);
   std::fill(rest, rest + below, 0.0);
@@ -56,7 +56,7 @@ void Multifrontal::substitute_forward(int s, Vector& y, double* part, bool paral
 /// y <- L^-T y for the columns of a supernode.
 void Multifrontal::substitute_backward(int s, Vector& y, double* part, bool parallel) const {
   const int height = rows(s), width = columns(s), below = height - width;
-  const double* panel = L_.data() + panel_[s];
+  const double* panel = L_.get() + panel_[s];
   double* own = y.data() + nodes_.first_column[s];
   double* rest = part + part_begin(s);
   const int* row = nodes_.row.data() + nodes_.begin[s] + width;
@@ -75,22 +75,8 @@ Vector Multifrontal::solve(const Vector& right_hand_side) const {
   Vector y(n);
   for (int i = 0; i < n; ++i) y[i] = right_hand_side[nodes_.permutation[i]];
   const Buffer part(new double[static_cast<size_t>(part_begin(supernodes()))]);
-  const int subtrees = static_cast<int>(subtrees_.size());
-#pragma omp parallel
-#pragma omp single
-  {
-    for_each(subtrees, true, [&](int i) {
-      for (int s = subtrees_[i].first; s <= subtrees_[i].second; ++s)
-        substitute_forward(s, y, part.get(), false);
-    });
-    for (const int s : top_) substitute_forward(s, y, part.get(), true);
-    for (auto s = top_.rbegin(); s != top_.rend(); ++s)
-      substitute_backward(*s, y, part.get(), true);
-    for_each(subtrees, true, [&](int i) {
-      for (int s = subtrees_[i].second; s >= subtrees_[i].first; --s)
-        substitute_backward(s, y, part.get(), false);
-    });
-  }
+  tree_.upwards([&](int s, bool shared) { substitute_forward(s, y, part.get(), shared); });
+  tree_.downwards([&](int s, bool shared) { substitute_backward(s, y, part.get(), shared); });
   Vector x(n);
   for (int i = 0; i < n; ++i) x[nodes_.permutation[i]] = y[i];
   return x;

@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "mechanics/arms.h"
 #include "mechanics/multifrontal.h"
 
 namespace bight {
@@ -59,31 +60,62 @@ std::vector<int> blocks_of(const SymmetricMatrix& m) {
   return first;
 }
 
-/// Nested dissection of the graph of blocks: a ninth of the entries, and a node stays together.
-std::vector<int> dissection(const SymmetricMatrix& m, cholmod_common& common) {
-  const std::vector<int> first = blocks_of(m);
-  std::vector<int> block(static_cast<size_t>(m.size()));
+/// The graph of blocks of unknowns: a ninth of the entries, and a node stays together.
+Graph graph_of(const SymmetricMatrix& m, const std::vector<int>& first) {
   const int blocks = static_cast<int>(first.size()) - 1;
+  std::vector<int> block(static_cast<size_t>(m.size()));
   for (int b = 0; b < blocks; ++b)
     std::fill(block.begin() + first[b], block.begin() + first[b + 1], b);
-  SymmetricMatrix graph;
-  graph.column_start = {0};
+  std::vector<std::pair<int, int>> edges;
+  std::vector<int> degree(static_cast<size_t>(blocks), 0);
   for (int b = 0; b < blocks; ++b) {
+    int last = b;
     for (int k = m.column_start[first[b]]; k < m.column_start[first[b] + 1]; ++k) {
       const int row = block[m.row[k]];
-      if (row >= b && (static_cast<int>(graph.row.size()) == graph.column_start.back() ||
-                       graph.row.back() != row))
-        graph.row.push_back(row);
+      if (row <= last) continue;
+      edges.emplace_back(b, last = row);
+      ++degree[b], ++degree[row];
     }
-    graph.column_start.push_back(static_cast<int>(graph.row.size()));
   }
-  graph.value.assign(graph.row.size(), 1.0);
-  std::vector<int> order(static_cast<size_t>(blocks)), permutation;
-  cholmod_sparse a = view(graph);
+  Graph graph;
+  for (int b = 0; b < blocks; ++b) graph.begin.push_back(graph.begin.back() + degree[b]);
+  graph.neighbour.resize(2 * edges.size());
+  std::vector<int> next(graph.begin.begin(), graph.begin.end() - 1);
+  for (const auto& [a, b] : edges) graph.neighbour[next[a]++] = b, graph.neighbour[next[b]++] = a;
+  return graph;
+}
+
+/// Nested dissection of a part of a graph.
+std::vector<int> dissection(const Graph& graph, const std::vector<int>& part,
+                            cholmod_common& common) {
+  std::vector<int> place(static_cast<size_t>(graph.size()), -1);
+  for (size_t i = 0; i < part.size(); ++i) place[part[i]] = static_cast<int>(i);
+  SymmetricMatrix lower;
+  lower.column_start = {0};
+  for (const int v : part) {
+    for (int k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+      if (const int row = place[graph.neighbour[k]]; row > place[v]) lower.row.push_back(row);
+    lower.column_start.push_back(static_cast<int>(lower.row.size()));
+  }
+  lower.value.assign(lower.row.size(), 1.0);
+  std::vector<int> order(part.size());
+  cholmod_sparse a = view(lower);
+  a.sorted = 0;
   if (!cholmod_metis(&a, nullptr, 0, true, order.data(), &common))
     std::iota(order.begin(), order.end(), 0);
-  for (const int b : order)
-    for (int i = first[b]; i < first[b + 1]; ++i) permutation.push_back(i);
+  for (int& v : order) v = part[v];
+  return order;
+}
+
+/// Arms from their ends, what they hang on by nested dissection.
+std::vector<int> swept_order(const SymmetricMatrix& m, cholmod_common& common) {
+  const std::vector<int> first = blocks_of(m);
+  const Graph graph = graph_of(m, first);
+  const Arms arms = find_arms(graph);
+  std::vector<int> permutation;
+  for (const std::vector<int>& part : {arms.first, dissection(graph, arms.rest, common), arms.last})
+    for (const int b : part)
+      for (int i = first[b]; i < first[b + 1]; ++i) permutation.push_back(i);
   return permutation;
 }
 
@@ -139,7 +171,7 @@ void SparseCholesky::analyse(const SymmetricMatrix& matrix, Ordering ordering) {
   cholmod_free_factor(&package_->factor, &common);
   cholmod_sparse a = view(matrix);
   if (ordering == Ordering::dissection) {
-    std::vector<int> permutation = dissection(matrix, common);
+    std::vector<int> permutation = swept_order(matrix, common);
     common.method[0].ordering = CHOLMOD_GIVEN;
     package_->factor = cholmod_analyze_p(&a, permutation.data(), nullptr, 0, &common);
   } else {
