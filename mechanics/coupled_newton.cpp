@@ -103,7 +103,7 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     if (result.decrement > std::max(steps.short_step, steps.most_growth * first_decrement))
       return finish(NewtonStatus::stalled, "the steps grow");
 
-    const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
+    const auto [dx, longest] = move_by(system, x, step, options.largest_move);
     const auto tell = [&](double fraction) {
       if (observer)
         observer({result.iterations, result.energy, result.residual, result.decrement, fraction,
@@ -111,14 +111,10 @@ NewtonResult coupled_newton(System& system, FollowingForces& forces, Vector x,
     };
     if (longest == 1 && result.decrement <= small_step * options.energy_tolerance) {
       tell(1);
-      system.advance(x, dx);
+      x = moved(system, std::move(x), dx);
       continue;
     }
-    const auto at = [&](double fraction) {
-      Vector trial = x;
-      system.advance(trial, fraction * dx);
-      return trial;
-    };
+    const auto at = [&](double fraction) { return moved(system, x, fraction * dx); };
     const double fraction =
         steps.damped
             ? damped_fraction(longest, level, [&](double part) { return level_at(at(part)); })

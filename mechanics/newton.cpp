@@ -49,7 +49,9 @@ bool newton_direction(System& system, const Vector& g, const NewtonOptions& opti
   return false;
 }
 
-Move move_by(const Assembler& assembler, const Vector& x, const Vector& step, double largest_move) {
+Move move_by(System& system, const Vector& x, const Vector& step, double largest_move) {
+  const Timed timed(system.seconds["update"]);
+  const Assembler& assembler = system.assembler;
   const Unknowns& unknowns = assembler.unknowns();
   Move move{unknowns.expand(x, step)};
   for (const auto& effect : assembler.effects()) effect->recover(x, move.dx);
@@ -58,6 +60,12 @@ Move move_by(const Assembler& assembler, const Vector& x, const Vector& step, do
   for (const auto& effect : assembler.effects())
     move.longest = std::min(move.longest, effect->longest_step(x, move.dx));
   return move;
+}
+
+Vector moved(System& system, Vector x, const Vector& dx) {
+  const Timed timed(system.seconds["update"]);
+  system.advance(x, dx);
+  return x;
 }
 
 bool stable(Assembler& assembler, const Vector& x) {
@@ -104,14 +112,13 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
     if (result.decrement <= options.energy_tolerance && result.residual <= options.force_tolerance)
       return finish(NewtonStatus::converged, "");
 
-    const auto [dx, longest] = move_by(assembler, x, step, options.largest_move);
+    const auto [dx, longest] = move_by(system, x, step, options.largest_move);
 
     // The first trial is nearly always taken, so it is evaluated with its tangent.
     Vector trial, trial_gradient;
     bool first = true;
     const auto energy_at = [&](double fraction) {
-      trial = x;
-      system.advance(trial, fraction * dx);
+      trial = moved(system, x, fraction * dx);
       const double energy =
           evaluate(system, trial, first ? Order::hessian : Order::energy, trial_gradient);
       first = false;

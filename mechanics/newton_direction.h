@@ -23,6 +23,9 @@ struct Move {
   Vector dx;
   double longest = 1;
 };
-Move move_by(const Assembler& assembler, const Vector& x, const Vector& step, double largest_move);
+Move move_by(System& system, const Vector& x, const Vector& step, double largest_move);
+
+/// x + dx, in the geometry of the model.
+Vector moved(System& system, Vector x, const Vector& dx);
 
 }  // namespace bight

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanics/knot_type.h"
+#include "mechanics/timed.h"
 #include "solid3d/measure.h"
 #include "solid3d/section_motion.h"
 #include "solid3d/travelling_guess.h"
@@ -92,6 +93,7 @@ Vector SolidModel::held(Vector x, double ebar) const {
 /// last two states foretell more than the last three. Friction counts as if its limits stayed.
 Vector SolidModel::best_guess(const Vector& guess, double ebar) {
   if (ebar == history_.back().ebar) return guess;
+  const Timed timed(system_.seconds["guess"]);
   if (effects_.friction) rubbing_.freeze_last();
   if (history_.size() < 2) {
     const Vector sliding =
@@ -137,6 +139,7 @@ void SolidModel::stiffen_ahead(double growth) {
 }
 
 StepRow SolidModel::take(const NewtonResult& result, double ebar) {
+  const Timed timed(system_.seconds["measure"]);
   const Vector before = newest();
   relaxing_ = false;
   // A turn of the path or a state at the same ebar gives no rate to go on with.
