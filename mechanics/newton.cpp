@@ -2,11 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/newton_direction.h"
 #include "mechanics/timed.h"
 
 namespace bight {
+
+namespace {
+
+/// Part of an energy that is lost in the round-off of its sum.
+constexpr double round_off = 10 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 double evaluate(System& system, const Vector& x, Order order, Vector& gradient) {
   {
@@ -124,8 +132,11 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
       first = false;
       return std::isfinite(energy) ? energy : inadmissible;
     };
-    const LineSearchResult found =
-        search(energy_at, result.energy, options.bound.allowed(result.iterations), longest);
+    // What a step gains may be less than can be told from two energies: then it is not searched.
+    const double rise = result.decrement > round_off * std::abs(result.energy)
+                            ? options.bound.allowed(result.iterations)
+                            : std::numeric_limits<double>::max();
+    const LineSearchResult found = search(energy_at, result.energy, rise, longest);
     if (observer)
       observer({result.iterations, result.energy, result.residual, result.decrement, found.step,
                 system.shift});
