@@ -14,7 +14,7 @@ constexpr double widest = 1.2;
 /// Length of an arm in sections over the square root of a section: shorter bodies are no arms.
 constexpr double least_slenderness = 4;
 /// Work on the rest over that on as many vertices of an arm, about.
-constexpr double work_of_rest = 3.3;
+constexpr double work_of_rest = 2.5;
 
 using Levels = std::vector<std::vector<int>>;
 

@@ -167,10 +167,7 @@ StepRow SolidModel::take(const NewtonResult& result, double ebar) {
   row.tension = 0.5 * (tension.finish + tension.start);
   row.residual = largest_inner(gradient) / tension_;
   row.reaction_mismatch = std::abs(tension.finish - tension.start) / tension_;
-  row.min_jacobian = 1;
-  for (int cell = 0; cell < effects_.strain->cells(); ++cell)
-    row.min_jacobian =
-        std::min(row.min_jacobian, effects_.strain->stress(newest(), cell).least_jacobian);
+  row.min_jacobian = effects_.strain->least_jacobian(newest());
   if (effects_.contact) {
     row.max_penetration = whole().contact->max_penetration();
     row.contact_pairs = whole().contact->stencils();

@@ -283,9 +283,7 @@ StepRow SolidProblem::accept(const NewtonResult& result, double t) {
   StepRow row;
   row.energy = result.energy;
   row.residual = result.residual / scale_;
-  for (int cell = 0; cell < effects_.strain->cells(); ++cell)
-    row.min_jacobian =
-        std::min(row.min_jacobian, effects_.strain->stress(state(), cell).least_jacobian);
+  row.min_jacobian = effects_.strain->least_jacobian(state());
   if (effects_.contact) {
     row.max_penetration = effects_.contact->max_penetration();
     row.contact_pairs = effects_.contact->stencils();

@@ -134,4 +134,11 @@ Strain::CellStress Strain::stress(const Vector& x, int cell) const {
   return result;
 }
 
+double Strain::least_jacobian(const Vector& x) const {
+  double least = 1;
+#pragma omp parallel for schedule(static) reduction(min : least)
+  for (int cell = 0; cell < cells_; ++cell) least = std::min(least, stress(x, cell).least_jacobian);
+  return least;
+}
+
 }  // namespace bight::solid3d

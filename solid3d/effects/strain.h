@@ -46,6 +46,8 @@ class Strain : public Effect {
     Matrix3 cauchy = Matrix3::Zero();
   };
   CellStress stress(const Vector& x, int cell) const;
+  /// Smallest det F over the Gauss points of all cells, 1 at most.
+  double least_jacobian(const Vector& x) const;
 
   int cells() const { return cells_; }
   /// Number of internal coordinates.
