@@ -9,7 +9,7 @@ namespace bight {
 
 /// Natural: keep the order of the unknowns (a rod without contact is banded along its length).
 /// Minimum degree: AMD on the pattern (a rod's contact couples far parts of it), quickly found.
-/// Dissection: METIS on the pattern (a solid).
+/// Dissection: arms of the pattern (mechanics/arms.h) from their ends, METIS on the rest (a solid).
 enum class Ordering { natural, minimum_degree, dissection };
 
 /// Sparse Cholesky factorisation of a symmetric positive definite matrix: CHOLMOD's door. Small or

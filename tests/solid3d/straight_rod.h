@@ -51,7 +51,7 @@ inline RodSolution bent_rod(const RodOf& rod, double length, const Strains& stra
   const Unknowns unknowns = grip.unknowns(mesh, static_cast<int>(x.size()));
   Assembler assembler(unknowns, effects.list);
   SparseCholesky cholesky;
-  System system{assembler, cholesky, Ordering::natural, {}, 0, 0, {}};
+  System system{assembler, cholesky, Ordering::dissection, {}, 0, 0, {}};
   system.advance = [&](Vector& state, const Vector& dx) { advance_sections(mesh, state, dx); };
   for (int n = 0; n < mesh.nodes(); ++n) {
     const Vector3 X = mesh.reference(n);
