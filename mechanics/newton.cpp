@@ -133,9 +133,9 @@ NewtonResult newton(System& system, Vector x, const NewtonOptions& options,
       return std::isfinite(energy) ? energy : inadmissible;
     };
     // What a step gains may be less than can be told from two energies: then it is not searched.
-    const double rise = result.decrement > round_off * std::abs(result.energy)
-                            ? options.bound.allowed(result.iterations)
-                            : std::numeric_limits<double>::max();
+    const double rise = result.decrement <= round_off * std::abs(result.energy)
+                            ? std::numeric_limits<double>::max()
+                            : options.bound.allowed(result.iterations);
     const LineSearchResult found = search(energy_at, result.energy, rise, longest);
     if (observer)
       observer({result.iterations, result.energy, result.residual, result.decrement, found.step,
